@@ -49,7 +49,7 @@ class Policy {
 
     // Writes the actions of all environments, which are at these steps of their episodes. Those of
     // a new batch, and those at step 0, begin.
-    void act(EnvPool& batch, bool begins) {
+    void act(EnvPool& batch, bool begins, const solvers::Stops* stops = nullptr) {
         const bool is_bound = bind(batch);
         const auto count = static_cast<std::size_t>(batch.settings().environments);
         if (begins || is_bound || !actor_ || running_.size() != count) {
@@ -65,7 +65,20 @@ class Policy {
         }
         solvers::Decision decision{
             batch.handle(), running_, episodes_, steps_, batch.arrays().actions.data(), violated_};
+        decision.horizon = batch.settings().horizon;
+        decision.stops = stops;
         actor_(decision);
+    }
+
+    // The same, of a policy that takes its time: Ctrl-C ends it.
+    void plan(EnvPool& batch, bool begins) {
+        plans_.finish();
+        const auto stop = std::make_shared<std::atomic<bool>>(false);
+        const solvers::Stops stops = [stop] {
+            return stop->load();
+        };
+        plans_.run([this, &batch, begins, stops] { act(batch, begins, &stops); }, {},
+                   [stop] { *stop = true; });
     }
 
     // Ctrl-C ends it.
@@ -112,6 +125,7 @@ class Policy {
     std::vector<std::uint8_t> running_;
     std::vector<std::int64_t> episodes_, steps_;
     std::vector<std::int32_t> violated_;
+    LongCalls plans_{true};  // the last one: a decision that goes on works with the others
 };
 
 // Whether an update has to end early: the `stops` of a learner's options.
@@ -208,6 +222,22 @@ Policy policy_of_text(const LoadedProblem& problem, const std::string& text, boo
             }};
 }
 
+// With the seed of its text, or 0.
+Policy planner(const LoadedProblem& problem, const std::string& text) {
+    return {problem.simulator, [text](const rddl_simulator& simulator) {
+                return workbench::policy_named(simulator, text, false, 0);
+            }};
+}
+
+std::string planner_options(const std::string& name) {
+    std::string text;
+    for (const planners::PlannerText& planner : planners::planner_texts())
+        if (planner.name == name)
+            for (const solvers::OptionText& option : planner.options)
+                text += fmt::format("    {}: {}\n", option.keyword, option.help);
+    return text;
+}
+
 std::string formula_of_text(const LoadedProblem& problem, const std::string& text) {
     const auto found = solvers::read_program(*problem.simulator, text);
     return solvers::program_formula(found->scope, found->genome);
@@ -251,7 +281,10 @@ nb::dict summary_dict(const solvers::Summary& summary) {
 
 void add_learners(nb::module_& module) {
     nb::class_<Policy>(module, "Policy", "Chooses actions in a batch.")
-        .def("act", &Policy::act, nb::arg("batch"), nb::arg("begins"))
+        .def(
+            "act", [](Policy& policy, EnvPool& batch, bool begins) { policy.act(batch, begins); },
+            nb::arg("batch"), nb::arg("begins"))
+        .def("plan", &Policy::plan, nb::arg("batch"), nb::arg("begins"))
         .def(
             "evaluate",
             [](const Policy& policy, std::int64_t episodes, std::uint64_t seed, int threads,
@@ -273,6 +306,8 @@ void add_learners(nb::module_& module) {
     module.def("cgp", cgp, nb::arg("simulator"), nb::arg("options"));
     module.def("ppo_options", [] { return options_help(ppo_keywords()); });
     module.def("cgp_options", [] { return options_help(cgp_keywords()); });
+    module.def("planner", planner, nb::arg("simulator"), nb::arg("text"));
+    module.def("planner_options", planner_options, nb::arg("name"));
     module.def("formula_of_text", formula_of_text, nb::arg("simulator"), nb::arg("text"));
     module.def("policy_of_file", policy_of_file, nb::arg("path"),
                "What a policy file holds, or that of the folder of a run.");

@@ -9,11 +9,12 @@ from __future__ import annotations
 import os
 from typing import Any
 
-from . import _native, callbacks, causes
+from . import _native, callbacks, causes, plan
 from .arguments import keywords_of, refuse_unknown
 from .environment import RDDLEnv
 from .errors import ActionError, ArgumentError, CompileError, EpisodeOver, Error
-from .learners import CGP, PPO, Estimate, Evaluation, Learner
+from .evaluation import Estimate, Evaluation
+from .learners import CGP, PPO, Learner
 from .model import Condition, Fluent, Model, ObjectType
 from .problems import Problem, problems
 from .registration import register, register_environments, spec_of
@@ -45,6 +46,7 @@ __all__ = [
     "causes",
     "make",
     "make_vec",
+    "plan",
     "problems",
     "register",
 ]

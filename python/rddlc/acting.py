@@ -32,7 +32,8 @@ def problem_in(given: Any) -> Problem:
     env = environment_in(given)
     if env is None:
         raise ArgumentError(
-            f"a learner takes an environment of rddlc or an rddlc.Problem, not a {type(given).__name__}"
+            f"learners and planners take an environment of rddlc or an rddlc.Problem, not a "
+            f"{type(given).__name__}"
         )
     return env.problem
 
@@ -50,7 +51,7 @@ def shows(env: Environment, observation: Any) -> bool:
     )
 
 
-def batch_at(env: Environment, observation: Any) -> _native.Batch:
+def batch_at(env: Environment, observation: Any) -> _native.EnvPool:
     """Environments where that is observed, at the start of an episode."""
     model = env.model
     if model.partially_observed:
@@ -65,7 +66,7 @@ def batch_at(env: Environment, observation: Any) -> _native.Batch:
             f"an observation is one of {env._reader.space}, or rows of them"
         ) from None
     records = records_of(model.states, model.state_size, values)
-    batch = _native.Batch(env.problem.simulator, environments=len(records), values=False)
+    batch = _native.EnvPool(env.problem.simulator, environments=len(records), values=False)
     batch.reset()
     places = np.arange(len(records))
     batch.write_states(places, records, np.zeros_like(places))

@@ -7,23 +7,21 @@ they save is what `rddl evaluate` and `rddl export` read (docs/solvers.md).
 from __future__ import annotations
 
 import html
-import math
 import os
 import sys
-from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar, Protocol, TypeVar
 
 from . import _native
 from .acting import actions_in, batch_at, environment_in, problem_in, shows
-from .arguments import SEEDS, seed_of, shown, thread_count, whole, whole_or_none
+from .arguments import SEEDS, seed_of, shown, whole
 from .callbacks import Callback
 from .environment import RDDLEnv
 from .errors import ArgumentError, Error
+from .evaluation import MOST_EPISODES, Evaluation, evaluation_of
 from .problems import Problem
-from .vector import RDDLVectorEnv
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
@@ -40,49 +38,9 @@ class Wrapped(Protocol):
 
 Solvable = Problem | Wrapped
 """Whatever wrappers do to an environment, learners know its problem alone."""
-MOST_EPISODES = 10_000_000
 EVALUATION_SEED = 0x65766131  # with the learner's seed, as `rddl train` has it
 EVALUATION_HORIZON = 1000  # of a problem without one
 L = TypeVar("L", bound="Learner")
-
-
-@dataclass(frozen=True)
-class Estimate:
-    """A mean of episodes, with the half width of its 95 % confidence interval."""
-
-    mean: float
-    deviation: float
-    minimum: float
-    maximum: float
-    half_width: float
-
-
-@dataclass(frozen=True)
-class Evaluation:
-    """The returns of a policy."""
-
-    episodes: int
-    returns: Estimate
-    """Sums of rewards, undiscounted."""
-    discounted_returns: Estimate
-    lengths: Estimate
-    """Steps."""
-    terminated: int
-    """Episodes that a termination condition has ended."""
-    faulted: int
-
-    def is_better_than(self, other: Evaluation | None) -> bool:
-        """Compares as `rddl train` chooses the best policy: by the mean return, and among equal
-        ones by which reaches its end sooner. One that is not finite is never better."""
-        mean = self.returns.mean
-        if not math.isfinite(mean) or other is None:
-            return math.isfinite(mean)
-        is_sooner = self.terminated > 0 and self.lengths.mean < other.lengths.mean
-        return mean > other.returns.mean or (mean == other.returns.mean and is_sooner)
-
-    def __str__(self) -> str:
-        returns = self.returns
-        return f"return {returns.mean:.6g} +- {returns.half_width:.3g} ({self.episodes} episodes)"
 
 
 @dataclass(frozen=True)
@@ -275,20 +233,7 @@ class Learner:
     ) -> Evaluation:
         """The returns of the policy in the episodes of this seed; as `rddl evaluate --seed`.
         horizon: steps; None: the instance's; 0: no horizon. threads: 0: one for each core."""
-        found = self.policy().evaluate(
-            whole("episodes", episodes, 1, MOST_EPISODES),
-            seed_of(seed),
-            thread_count(threads),
-            whole_or_none("horizon", horizon, 0),
-        )
-        return Evaluation(
-            episodes=found["episodes"],
-            returns=Estimate(**found["return"]),
-            discounted_returns=Estimate(**found["discounted_return"]),
-            lengths=Estimate(**found["length"]),
-            terminated=found["terminated"],
-            faulted=found["faulted"],
-        )
+        return evaluation_of(self.policy(), episodes, seed, threads, horizon)
 
     def save(self, path: str | os.PathLike[str], *, best: bool = False) -> Path:
         """Writes the policy file: of the policy as it is now, or of the `best` one. Adds the

@@ -426,7 +426,7 @@ class Verbs(unittest.TestCase):
         observation, _ = env.reset(seed=1)
         self.assertEqual(model.predict(env), model.predict(observation))
         for given in (gymnasium.make("CartPole-v1"), 3, "network"):
-            with self.assertRaisesRegex(rddlc.ArgumentError, "a learner takes an environment of rddlc"):
+            with self.assertRaisesRegex(rddlc.ArgumentError, "learners and planners take an environment of rddlc"):
                 rddlc.PPO(given)
 
     def test_amounts(self) -> None:

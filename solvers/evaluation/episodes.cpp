@@ -102,8 +102,9 @@ class EpisodeBatch {
             running_[i] = !episodes_[i].finished;
             steps_[i] = episodes_[i].length;
         }
-        Decision decision{batch_.get(),    running_,  numbers_, steps_,
-                          actions_.data(), violated_, false,    &stops};
+        Decision decision{batch_.get(), running_,        numbers_,
+                          steps_,       actions_.data(), violated_,
+                          false,        &stops,          batch_options(options_, 0, 0).horizon};
         actor_(decision);
         // If a policy block faults, the episode is over, and the action does not matter.
         require_done(simulator_, simulator_.get_causes(batch_.get(), 0,

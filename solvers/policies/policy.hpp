@@ -27,6 +27,8 @@ struct Decision {
     std::span<std::int32_t> violated;
     bool knows_violated = false;
     const Stops* stops = nullptr;  // where choosing ends early
+    // Steps of an episode, as batches have it: 0: the instance's; RDDL_NO_HORIZON: none.
+    std::int64_t horizon = 0;
 };
 
 // Acts in one batch, whose episodes have just begun, once for each step; remembers what it needs of

@@ -7,7 +7,7 @@ import re
 import sys
 from pathlib import Path
 
-GENERAL_FOLDERS = ["support", "compiler", "runtime/rddl", "solvers", "grammar", "templates"]
+GENERAL_FOLDERS = ["support", "compiler", "runtime/rddl", "solvers", "planners", "grammar", "templates"]
 # Words of the language or of everyday English that also name a problem.
 COMMON_WORDS = {"network", "fire", "robot", "delivery", "elevators", "navigation", "traffic", "option"}
 

@@ -12,7 +12,7 @@ import sys
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
-FOLDERS = ["support", "compiler", "runtime", "render", "solvers", "workbench", "cli", "python/native", "templates"]
+FOLDERS = ["support", "compiler", "runtime", "render", "solvers", "planners", "workbench", "cli", "python/native", "templates"]
 PRINTS = re.compile(r"\bfmt::print\(|\bstd::c(out|err|log)\b|\b(std::)?(puts|fputs|putchar|printf|fprintf|perror)\(")
 KNOWS_LOCALE = re.compile(r"\b(v?s?n?printf|strto(d|f|ld)|atof|setlocale|imbue)\(|\bstd::sto(d|f|ld)\b"
                           r"|\{:[^}\"]*L\}")

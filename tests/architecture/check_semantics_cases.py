@@ -8,7 +8,7 @@ from pathlib import Path
 NUMBER = r"\d+\.\d+"
 CITATION = re.compile(rf"\bSemantics (\d[\d.]*(?:, \d[\d.]*)*)")
 FIRST_LINE = re.compile(r"// Semantics \d")
-FOLDERS = ["benchmarks", "cli", "compiler", "docs", "grammar", "python", "render", "runtime", "solvers", "support", "templates", "tests"]
+FOLDERS = ["benchmarks", "cli", "compiler", "docs", "grammar", "planners", "python", "render", "runtime", "solvers", "support", "templates", "tests"]
 TEXTS = {".cpp", ".hpp", ".h", ".py", ".md", ".rddl", ".g4", ".in", ".txt"}
 
 

@@ -8,7 +8,7 @@ import re
 import sys
 from pathlib import Path
 
-FOLDERS = ["compiler", "cli", "python", "render", "runtime", "solvers", "support", "workbench"]
+FOLDERS = ["compiler", "cli", "planners", "python", "render", "runtime", "solvers", "support", "workbench"]
 OURS = re.compile(r"^\s*case (?!Parser::|Lexer::|Token::)(?:[A-Za-z_]+::)*[A-Za-z_]\w*:")
 
 

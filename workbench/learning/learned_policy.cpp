@@ -170,7 +170,15 @@ void note_plans(const solvers::Policy& policy, std::int64_t episodes) {
 }
 
 solvers::Policy policy_named(const rddl_simulator& simulator, const std::string& name, bool random,
-                             std::uint64_t seed, std::int64_t memory_limit) {
+                             std::uint64_t seed, std::int64_t memory_limit,
+                             const PlannerSettings& planning) {
+    if (planners::is_planner(name)) {
+        planners::PolicySettings settings{seed, planning.cheat, memory_limit, {}, planning.explain};
+        settings.named = [&simulator, random, seed, memory_limit](const std::string& base) {
+            return policy_named(simulator, base, random, seed, memory_limit);
+        };
+        return planners::planner_policy(simulator, name, settings);
+    }
     if (name == "random") return solvers::random_policy(simulator, seed);
     if (name == "noop") return solvers::noop_policy(simulator);
     if (name == "rddl") {
@@ -180,8 +188,8 @@ solvers::Policy policy_named(const rddl_simulator& simulator, const std::string&
         return solvers::block_policy(simulator);
     }
     if (!is_there(name))
-        throw Failure(fmt::format("'{}' is neither random, noop, rddl, a policy file, a trace nor "
-                                  "the folder of a run",
+        throw Failure(fmt::format("'{}' is neither random, noop, rddl, a policy file, a trace, "
+                                  "the folder of a run nor a planner (plan:NAME)",
                                   name),
                       {}, usage_error);
     return learned_policy(simulator, name, random, seed, memory_limit);

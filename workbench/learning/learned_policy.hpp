@@ -1,6 +1,7 @@
 // Policies by the names that users give them.
 #pragma once
 
+#include "learning/planned_policy.hpp"
 #include "solvers/policies/policy.hpp"
 #include "support/memory.hpp"
 
@@ -31,8 +32,9 @@ solvers::Policy learned_policy(const rddl_simulator& simulator, const std::files
 // Says on standard error where a trace has fewer episodes than play it.
 void note_plans(const solvers::Policy& policy, std::int64_t episodes);
 
-// "random", "noop", "rddl" (the policy block), a learned policy or a recorded plan.
+// "random", "noop", "rddl" (the policy block), a learned policy, a recorded plan or a planner.
 solvers::Policy policy_named(const rddl_simulator& simulator, const std::string& name, bool random,
-                             std::uint64_t seed, std::int64_t memory_limit = default_memory_limit);
+                             std::uint64_t seed, std::int64_t memory_limit = default_memory_limit,
+                             const PlannerSettings& planning = {});
 
 }  // namespace rddlc::workbench

@@ -13,9 +13,10 @@
 namespace rddlc::workbench {
 
 Evaluation evaluate(const rddl_simulator& simulator, const std::string& name,
-                    const solvers::EpisodeOptions& options, bool random, bool quiet) {
+                    const solvers::EpisodeOptions& options, bool random, bool quiet,
+                    const PlannerSettings& planning) {
     const solvers::Policy policy =
-        policy_named(simulator, name, random, options.seed, options.memory_limit);
+        policy_named(simulator, name, random, options.seed, options.memory_limit, planning);
     if (!quiet) note_plans(policy, options.episodes);
     const std::int64_t steps = solvers::steps_at_most(simulator, options);
     Progress bar(name, options.episodes * std::max<std::int64_t>(steps, 1), !quiet);

@@ -1,6 +1,7 @@
 // The returns of a policy in many episodes.
 #pragma once
 
+#include "learning/planned_policy.hpp"
 #include "solvers/evaluation/episodes.hpp"
 #include "solvers/evaluation/summary.hpp"
 
@@ -23,7 +24,8 @@ struct Evaluation {
 // says so, as it does while it learns. Shows a progress bar and a note on plans that are played
 // several times, unless `quiet`.
 Evaluation evaluate(const rddl_simulator& simulator, const std::string& name,
-                    const solvers::EpisodeOptions& options, bool random, bool quiet);
+                    const solvers::EpisodeOptions& options, bool random, bool quiet,
+                    const PlannerSettings& planning = {});
 
 // The mean return of the last episodes while PPO learned, with random actions; nothing if the
 // policy is not a run that reports it.

@@ -43,6 +43,9 @@ solvers::Policy policy_of(const rddl_simulator& simulator, const RolloutOptions&
         case Policy::Learned:
             return learned_policy(simulator, options.learned, false, options.seed,
                                   options.memory_limit);
+        case Policy::Planner:
+            return policy_named(simulator, options.planner, false, options.seed,
+                                options.memory_limit, options.planning);
         case Policy::Rddl:
             break;
     }
@@ -59,10 +62,17 @@ std::string_view name_of(Policy policy) {
             return "noop";
         case Policy::Learned:
             return "learned";
+        case Policy::Planner:
+            return "planner";
         case Policy::Rddl:
             break;
     }
     return "rddl";
+}
+
+std::string policy_name(const RolloutOptions& options) {
+    return options.policy == Policy::Planner ? options.planner
+                                             : std::string(name_of(options.policy));
 }
 
 Rollouts run_episodes(const rddl_simulator& simulator, const RolloutOptions& options,

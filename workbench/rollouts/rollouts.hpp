@@ -1,6 +1,7 @@
 // Episodes as the commands run them: with a progress bar, traces and Ctrl-C.
 #pragma once
 
+#include "learning/planned_policy.hpp"
 #include "rollouts/violations.hpp"
 #include "solvers/evaluation/episodes.hpp"
 
@@ -21,13 +22,19 @@ using solvers::EpisodeViolation;
 using solvers::Rollouts;
 
 // Rddl: the policy block of the problem, which must have one. Learned: that of `learned`.
-enum class Policy { Random, Noop, Rddl, Learned };
+// Planner: that of `planner`.
+enum class Policy { Random, Noop, Rddl, Learned, Planner };
 std::string_view name_of(Policy policy);  // "random", ...
 
 struct RolloutOptions : solvers::EpisodeOptions {
     Policy policy = Policy::Random;
     std::filesystem::path learned = {};  // a policy file, or the folder of a run
+    std::string planner = {};            // "plan:cem,seconds=0.1"
+    PlannerSettings planning = {};
 };
+
+// A planner's is its text.
+std::string policy_name(const RolloutOptions& options);
 
 // Receives the trace lines of consecutive episodes, in order; called by one thread at a time. With
 // one thread and batches of one it gets each line as soon as the step is made.

@@ -133,6 +133,7 @@ class Walker {
                 leave_defaults();
                 break;
             case Policy::Learned:  // takes no part in comparisons
+            case Policy::Planner:
             case Policy::Rddl:
                 ask_policies();
                 break;

@@ -30,6 +30,7 @@ struct EvaluationOptions {
     solvers::EpisodeOptions episodes;
     bool random = false;  // learned policies act at random, as they do while they learn
     bool json = false;
+    PlannerSettings planning;
     ChartFiles chart;
 };
 
@@ -144,10 +145,15 @@ ExitStatus evaluate_all(const EvaluationOptions& options) {
     EvaluationOptions chosen = options;
     chosen.episodes.preconditions = Preconditions::Warn;  // so that they are counted
     chosen.episodes.memory_limit = files.memory_limit;
+    Explanations explanations(chosen.planning, *simulator.problem, problem.used);
     std::vector<Evaluation> all;
-    for (const std::string& name : options.policies)
-        if (!is_interrupted())
-            all.push_back(evaluate(simulator, name, chosen.episodes, options.random, options.json));
+    for (const std::string& name : options.policies) {
+        if (is_interrupted()) break;
+        all.push_back(evaluate(simulator, name, chosen.episodes, options.random, options.json,
+                               chosen.planning));
+        explanations.write(name);
+    }
+    explanations.finish();
     options.json ? print_json(files, all, options) : print_table(*simulator.problem, all, options);
     if (options.chart.any() && !all.empty()) draw(*simulator.problem, all, options);
     for (const Evaluation& one : all)
@@ -171,8 +177,20 @@ void add_common_options(Command& command, EvaluationOptions& options) {
                [&options](const std::string& file) { options.policy_block = file; });
     add_flag(command, "--stochastic", "Learned policies sample their actions, as during training",
              options.random);
+    add_planner_options(command, options.planning);
     add_engine_options(command, options.load);
     add_flag(command, "--json", "Print the results as JSON", options.json);
+}
+
+// Options of a planner have commas between them, too: key=value belongs to the planner before it.
+void add_policy(std::vector<std::string>& policies, const std::string& word) {
+    const std::size_t sign = word.find('=');
+    const bool is_option =
+        sign != std::string::npos && word.find_first_not_of("abcdefghijklmnopqrstuvwxyz-_") == sign;
+    if (is_option && !policies.empty() && planners::is_planner(policies.back()))
+        policies.back() += "," + word;
+    else
+        policies.push_back(word);
 }
 
 }  // namespace
@@ -185,13 +203,17 @@ Command evaluate_command() {
     command.details =
         "Examples:\n"
         "  rddl evaluate MountainCar_ippc2023 1 --policy runs/a\n"
-        "  rddl evaluate domain.rddl instance.rddl --policy random --episodes 1000 --json";
+        "  rddl evaluate domain.rddl instance.rddl --policy random --episodes 1000 --json\n"
+        "  rddl evaluate MountainCar_ippc2023 1 --policy plan:cem,seconds=0.1 --episodes 10\n\n" +
+        planner_help();
     add_problem_arguments(command, options->problem);
-    add_option(
-        command, "--policy", "POLICY",
-        "random, noop, rddl (the policy block), a policy file, the folder of a run, or a trace "
-        "(.jsonl), whose episodes are played one after the other",
-        [options](const std::string& name) { options->policies = {name}; })
+    add_option(command, "--policy", "POLICY",
+               "random, noop, rddl (the policy block), a policy file, the folder of a run, a trace "
+               "(.jsonl), whose episodes are played one after the other, or a planner (plan:NAME)",
+               [options](const std::string& name) {
+                   if (planners::is_planner(name)) planners::require_planner(name);
+                   options->policies = {name};
+               })
         .suggestions = {"random", "noop", "rddl"};
     add_common_options(command, *options);
     command.run = [options] {
@@ -214,12 +236,14 @@ Command compare_command() {
     add_list_option(
         command, "--policies", "POLICY,...",
         "random, noop, rddl (the policy block), policy files, folders of runs, traces (.jsonl) "
-        "as plans",
-        [options](const std::string& name) { options->policies.push_back(name); })
+        "as plans, planners (plan:NAME,key=value,...)",
+        [options](const std::string& name) { add_policy(options->policies, name); })
         .suggestions = {"random", "noop", "rddl"};
     add_common_options(command, *options);
     add_chart_options(command, options->chart);
     command.run = [options] {
+        for (const std::string& name : options->policies)
+            if (planners::is_planner(name)) planners::require_planner(name);
         if (options->policies.empty()) options->policies = {"noop", "random"};
         return evaluate_all(*options);
     };

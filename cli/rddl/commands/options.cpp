@@ -95,24 +95,30 @@ void add_engine_options(Command& command, LoadOptions& options) {
 namespace {
 
 void choose_policy(const std::string& name, Policy& policy,
-                   std::optional<std::filesystem::path>& file, std::filesystem::path* learned) {
+                   std::optional<std::filesystem::path>& file, RolloutOptions* rollouts) {
     for (const Policy each : {Policy::Random, Policy::Noop, Policy::Rddl}) {
         if (name_of(each) != name) continue;
         policy = each;
         file.reset();
         return;
     }
+    if (planners::is_planner(name) && rollouts) {
+        planners::require_planner(name);
+        policy = Policy::Planner;
+        rollouts->planner = name;
+        return;
+    }
     if (!is_path(name))
         throw UsageError(
             fmt::format("--policy: '{}' is neither random, noop, rddl nor a file", name));
     if (is_learned_policy(name)) {
-        if (!learned)
+        if (!rollouts)
             throw UsageError(
                 fmt::format("--policy: '{}' is a trace or a learned policy, which this "
                             "command does not accept; --states takes the states of a trace",
                             name));
         policy = Policy::Learned;
-        *learned = name;
+        rollouts->learned = name;
         return;
     }
     policy = Policy::Rddl;
@@ -121,18 +127,27 @@ void choose_policy(const std::string& name, Policy& policy,
 
 }  // namespace
 
+void add_planner_options(Command& command, PlannerSettings& planning) {
+    add_flag(command, "--cheat", "Planners see the state of problems that are observed in part",
+             planning.cheat);
+    add_text_option(command, "--explain-decisions", "FILE",
+                    "Write what planners' decisions were made by, a line of JSON each; - is stdout",
+                    planning.explanations);
+}
+
 void add_policy_option(Command& command, Policy& policy, std::optional<std::filesystem::path>& file,
-                       std::filesystem::path* learned) {
+                       RolloutOptions* rollouts) {
     add_option(
         command, "--policy", "POLICY",
         std::string("random (default): legal random actions; noop: default actions; rddl: the "
                     "policy block of the problem; FILE: the policy block in it") +
-            (learned ? ", a learned policy, or the actions of a trace (.jsonl): episode 0 "
-                       "plays those of its episode 0 and so on, and after its last episode comes "
-                       "its first one again"
-                     : ""),
-        [&policy, &file, learned](const std::string& name) {
-            choose_policy(name, policy, file, learned);
+            (rollouts
+                 ? ", a learned policy, or the actions of a trace (.jsonl): episode 0 "
+                   "plays those of its episode 0 and so on, and after its last episode comes "
+                   "its first one again; plan:NAME: a planner ('rddl help evaluate' lists them)"
+                 : ""),
+        [&policy, &file, rollouts](const std::string& name) {
+            choose_policy(name, policy, file, rollouts);
         })
         .suggestions = {"random", "noop", "rddl"};
 }

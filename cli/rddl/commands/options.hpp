@@ -72,9 +72,13 @@ void add_cache_option(Command& command, LoadOptions& options);
 // --engine, --extern, --without, --fast-math, --real, --no-cache
 void add_engine_options(Command& command, LoadOptions& options);
 
-// --policy; a file gives its policy block or, if `learned` is not null, a learned policy
+// --policy; a file gives its policy block or, if `rollouts` is not null, a learned policy. Planners
+// are accepted if `rollouts` is not null.
 void add_policy_option(Command& command, Policy& policy, std::optional<std::filesystem::path>& file,
-                       std::filesystem::path* learned = nullptr);
+                       RolloutOptions* rollouts = nullptr);
+
+// --cheat, --explain-decisions
+void add_planner_options(Command& command, PlannerSettings& planning);
 
 // --size
 void add_size_option(Command& command, int& width, int& height, const std::string& explanation);

@@ -86,7 +86,7 @@ void print_summary(const RunOptions& options, const Summary& summary, const Roll
                    const LoadedProblem& problem, ViolationExplainer& explainer) {
     const rddl_problem& description = *problem.simulator->problem;
     print("{} ({}): policy {}, seed {}, {}\n\n", description.instance, description.domain,
-          name_of(options.rollouts.policy), options.rollouts.seed, name_of(options.load.engine));
+          policy_name(options.rollouts), options.rollouts.seed, name_of(options.load.engine));
     TextTable table({{""},
                      {"mean", Align::Right},
                      {"std", Align::Right},
@@ -125,7 +125,7 @@ nlohmann::ordered_json spread_json(const solvers::Estimate& s) {
 void print_json(const RunOptions& options, const Summary& summary, const Rollouts& rollouts,
                 const LoadedProblem& problem, ViolationExplainer& explainer) {
     nlohmann::ordered_json out{{"problem", problem.files.name},
-                               {"policy", name_of(options.rollouts.policy)},
+                               {"policy", policy_name(options.rollouts)},
                                {"engine", name_of(options.load.engine)},
                                {"seed", options.rollouts.seed},
                                {"episodes", summary.episodes},
@@ -160,7 +160,7 @@ std::string header_line(const RunOptions& options, const LoadedProblem& problem,
     TraceHeader header;
     header.problem = problem.files.name;
     header.files = problem.files.all();
-    header.policy = name_of(options.rollouts.policy);
+    header.policy = policy_name(options.rollouts);
     header.engine = name_of(options.load.engine);
     header.seed = options.rollouts.seed;
     header.episodes = options.rollouts.episodes;
@@ -189,8 +189,7 @@ void require_drawn_episode(const RunOptions& options) {
 
 // The name of the episode in titles.
 std::string course_name(const RunOptions& options) {
-    return fmt::format("policy {}, seed {}", name_of(options.rollouts.policy),
-                       options.rollouts.seed);
+    return fmt::format("policy {}, seed {}", policy_name(options.rollouts), options.rollouts.seed);
 }
 
 ExitStatus run(const RunOptions& options) {
@@ -222,6 +221,7 @@ ExitStatus run(const RunOptions& options) {
     }
     RolloutOptions rollout_options = options.rollouts;
     rollout_options.memory_limit = files.memory_limit;
+    Explanations explanations(rollout_options.planning, description, problem.used);
     if (options.pictures.watch) {  // step by step
         rollout_options.threads = 1;
         rollout_options.batch = 1;
@@ -229,6 +229,8 @@ ExitStatus run(const RunOptions& options) {
     const Rollouts rollouts = run_episodes(*problem.simulator, rollout_options, sink,
                                            !options.quiet && !options.pictures.watch);
     if (trace) trace->finish();
+    explanations.write(policy_name(options.rollouts));
+    explanations.finish();
     if (pictures && !is_interrupted()) {
         draw_initial_states(rollouts, *pictures);
         pictures->finish();
@@ -275,8 +277,7 @@ Command run_command() {
         "  rddl run domain.rddl instance.rddl --engine interpreter --trace episodes.jsonl\n"
         "  rddl run MountainCar_ippc2023 1 --gif movie.gif";
     add_problem_arguments(command, options->problem);
-    add_policy_option(command, options->rollouts.policy, options->policy_file,
-                      &options->rollouts.learned);
+    add_policy_option(command, options->rollouts.policy, options->policy_file, &options->rollouts);
     RolloutOptions& rollouts = options->rollouts;
     add_number_option<std::int64_t>(command, "--episodes", "N", "Episodes to run (1)",
                                     rollouts.episodes, 1, 100'000'000);
@@ -289,6 +290,7 @@ Command run_command() {
                                     "Episodes that a thread steps together", rollouts.batch, 1,
                                     largest_batch);
     add_preconditions_option(command, rollouts.preconditions);
+    add_planner_options(command, rollouts.planning);
     add_engine_options(command, options->load);
     add_text_option(command, "--trace", "FILE", "Write every step as a line of JSON; - is stdout",
                     options->trace);

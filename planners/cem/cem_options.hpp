@@ -1,0 +1,27 @@
+// Options of plan:cem.
+#pragma once
+
+#include "planners/planner/common_options.hpp"
+
+#include <cstdint>
+#include <optional>
+
+namespace rddlc::planners {
+
+enum class Weights { Elites, Mppi };
+
+struct CemOptions : CommonOptions {
+    int population = 256;
+    std::optional<int> scenarios;  // draws of luck for each course of actions
+    double elites = 0.1;           // the part of the population that the next one is drawn like
+    double correlation = -1;       // of noise between steps; below 0: a mixture
+    double spread = 1;             // of the first population, in half widths of bounds
+    double memory = 0.2;           // of a distribution for the one before it
+    int kept = 8;                  // of the best courses, that come again
+    Weights weights = Weights::Elites;
+    double temperature = 0.2;  // of mppi, in deviations of the returns
+};
+
+const solvers::OptionTable<CemOptions>& cem_option_table();
+
+}  // namespace rddlc::planners

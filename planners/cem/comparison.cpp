@@ -1,0 +1,102 @@
+// The end of a decision of plan:cem: the best courses are compared with new luck.
+#include "planners/cem/cem.hpp"
+#include "planners/cem/mean_and_error.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace rddlc::planners {
+
+namespace {
+
+// Courses whose comparison ends a decision, besides no-op, the policy and the middle.
+constexpr std::size_t most_compared = 8;
+// Standard errors by which a course has to be better than the policy to be taken in its place.
+constexpr double doubt = 1;
+
+}  // namespace
+
+// After the courses comes what the policy does.
+void Cem::play_tail(const Situation& situation, Meter& meter) {
+    if (!base_ || situation.left == no_end) return;
+    std::ranges::fill(by_policy_, 1);
+    for (std::int64_t t = steps_; t < situation.left && futures_.any_running(); ++t) {
+        if (meter.is_late()) return;
+        base_->act(futures_, by_policy_, actions_.data(), situation.stops);
+        futures_.step(actions_.data());
+        meter.add_steps(futures_.stepped());
+    }
+}
+
+// The best courses, no-op, the policy and the middle, with luck that none of them was chosen by.
+Cem::Choice Cem::compare(const Situation& situation, Luck& luck, Meter& meter) {
+    compared_.assign(order_.begin(), order_.begin() + static_cast<std::ptrdiff_t>(
+                                                          std::min(most_compared, population_)));
+    for (std::size_t c = 0; c < population_; ++c)
+        if (origins_[c] != Origin::Sample && origins_[c] != Origin::Kept &&
+            std::ranges::find(compared_, c) == compared_.end())
+            compared_.push_back(c);
+    const std::size_t count = compared_.size(), draws = lanes_ / count;
+    const Choice unsure{order_.front(), values_[order_.front()], errors_[order_.front()],
+                        static_cast<std::int64_t>(scenarios_)};
+    if (draws == 0) return unsure;
+    std::size_t policy = count;
+    for (std::size_t k = 0; k < lanes_; ++k) {
+        const std::size_t c = compared_[k % count];
+        compared_of_lane_[k] = static_cast<std::uint32_t>(c);
+        by_policy_[k] = origins_[c] == Origin::Policy;
+        lucks_[k] = k % count == 0 ? luck.bits() : lucks_[k - 1];
+        if (by_policy_[k]) policy = k % count;
+    }
+    const bool is_done = play(situation, compared_of_lane_, steps_, meter) == steps_;
+    if (is_done) play_tail(situation, meter);
+    std::ranges::fill(by_policy_, 0);
+    if (!is_done || meter.is_late()) return unsure;
+
+    std::size_t best = 0;
+    compared_values_.clear();
+    compared_errors_.clear();
+    for (std::size_t c = 0; c < count; ++c) {
+        const auto found =
+            mean_and_error(draws, [&](std::size_t s) { return futures_.value(s * count + c); });
+        compared_values_.push_back(found.mean);
+        compared_errors_.push_back(found.error);
+        if (found.mean > compared_values_[best]) best = c;
+    }
+    if (policy < count && best != policy) {
+        const auto better = mean_and_error(draws, [&](std::size_t s) {
+            return futures_.value(s * count + best) - futures_.value(s * count + policy);
+        });
+        if (std::isfinite(compared_values_[policy]) && better.mean < doubt * better.error)
+            best = policy;
+    }
+    for (std::size_t c = 0; c < count; ++c) {  // for those who ask what was thought
+        values_[compared_[c]] = compared_values_[c];
+        errors_[compared_[c]] = compared_errors_[c];
+    }
+    return {compared_[best], compared_values_[best], compared_errors_[best],
+            static_cast<std::int64_t>(draws)};
+}
+
+void Cem::note_candidates(Thoughts& thoughts, const Choice& chosen) const {
+    constexpr const char* names[] = {"kept", "policy", "noop", "middle", "sample"};
+    constexpr std::size_t most = 5;
+    const auto add = [&](std::size_t course, std::int64_t trials) {
+        const std::byte* const action = first_action(course);
+        thoughts.candidates.push_back({names[static_cast<std::size_t>(origins_[course])],
+                                       {action, action + records_.record_size()},
+                                       values_[course],
+                                       errors_[course],
+                                       trials});
+    };
+    add(chosen.course, chosen.trials);
+    thoughts.candidates.front().value = chosen.value;
+    for (std::size_t k = 0; k < population_; ++k) {
+        const std::size_t course = order_[k];
+        const bool is_special =
+            origins_[course] != Origin::Sample && origins_[course] != Origin::Kept;
+        if (course != chosen.course && (k < most || is_special)) add(course, chosen.trials);
+    }
+}
+
+}  // namespace rddlc::planners

@@ -1,0 +1,299 @@
+#include "planners/cem/courses.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace rddlc::planners {
+
+using solvers::ActionSpace;
+using solvers::CategoryHead;
+using solvers::Choice;
+using solvers::RealHead;
+
+namespace {
+
+// A distribution never forgets a value altogether: that of a fit has so much of all of them.
+constexpr float least_share = 0.02f;
+// And so much that of a step before.
+constexpr float shifted_share = 0.1f;
+// The chance that a first pick stops.
+constexpr float first_stop = 0.2f;
+
+double number_of_real(const RealHead& head, double value) {
+    const auto inverse_softplus = [](double x) {
+        return x > 30 ? x : std::log(std::expm1(std::max(x, 1e-12)));
+    };
+    switch (head.range) {
+        case RealHead::Range::Squashed:
+        case RealHead::Range::Bounded: {
+            const double width = head.upper - head.lower;
+            const double middle = width > 0 ? 2 * (value - head.lower) / width - 1 : 0;
+            return head.range == RealHead::Range::Bounded
+                       ? middle
+                       : std::atanh(std::clamp(middle, -0.999, 0.999));
+        }
+        case RealHead::Range::AboveLower:
+            return inverse_softplus((value - head.lower) / head.scale);
+        case RealHead::Range::BelowUpper:
+            return inverse_softplus((head.upper - value) / head.scale);
+        case RealHead::Range::Free:
+            break;
+    }
+    return (value - head.centre) / head.scale;
+}
+
+std::int32_t index_of_category(const ActionSpace& space, const CategoryHead& head,
+                               const float* values) {
+    std::int64_t value = 0;
+    if (head.group.empty()) {
+        value = std::llround(values[head.column]);
+    } else {
+        for (std::size_t g = 0; g < head.group.size(); ++g) {
+            const auto column = static_cast<std::size_t>(head.group[g]);
+            if (values[column] != space.defaults[column]) value = static_cast<std::int64_t>(g) + 1;
+        }
+    }
+    return static_cast<std::int32_t>(
+        std::clamp<std::int64_t>(value - head.first_value, 0, head.count - 1));
+}
+
+// The share of the normal distribution below x, within a hundredth.
+float share_below(float x) {
+    return 1 / (1 + std::exp(-1.702f * x));
+}
+
+std::int32_t place_in(const float* cumulative, std::size_t count, float share) {
+    const float* const end = cumulative + count;
+    const float* const found = std::upper_bound(cumulative, end, share * end[-1]);
+    return static_cast<std::int32_t>(
+        std::min<std::ptrdiff_t>(found - cumulative, static_cast<std::ptrdiff_t>(count) - 1));
+}
+
+bool has_picked(const ActionSpace& space, const std::int32_t* picks, int count, int column) {
+    for (int p = 0; p < count; ++p)
+        if (space.choices[static_cast<std::size_t>(picks[p])].column == column) return true;
+    return false;
+}
+
+}  // namespace
+
+void read_action(const ActionSpace& space, const float* values, float* numbers,
+                 std::int32_t* indices) {
+    for (std::size_t r = 0; r < space.reals.size(); ++r)
+        numbers[r] = static_cast<float>(
+            number_of_real(space.reals[r], static_cast<double>(values[space.reals[r].column])));
+    if (space.picks == 0) {
+        for (std::size_t h = 0; h < space.categories.size(); ++h)
+            indices[h] = index_of_category(space, space.categories[h], values);
+        return;
+    }
+    int picked = 0;
+    for (std::size_t c = 1; c < space.choices.size() && picked < space.picks; ++c) {
+        const Choice& choice = space.choices[c];
+        const float value = values[choice.column];
+        if (value == space.defaults[static_cast<std::size_t>(choice.column)]) continue;
+        if (choice.real < 0 && std::llround(value) != choice.value) continue;
+        indices[picked++] = static_cast<std::int32_t>(c);
+    }
+    std::fill(indices + picked, indices + space.picks, 0);
+}
+
+Distribution::Distribution(const ActionSpace& space, Spread spread)
+    : space_(space),
+      spread_(spread),
+      first_means_(reals(), 0.0f),
+      first_probabilities_(logits()),
+      fitted_(logits()),
+      latent_(reals() + indices()) {
+    if (space.picks > 0 && logits() > 1) {
+        std::ranges::fill(first_probabilities_,
+                          (1 - first_stop) / static_cast<float>(logits() - 1));
+        first_probabilities_.front() = first_stop;
+    } else if (space.picks > 0) {
+        first_probabilities_.front() = 1;
+    }
+    for (const CategoryHead& head : space.categories)
+        std::fill_n(first_probabilities_.begin() + head.first_logit, head.count,
+                    1 / static_cast<float>(head.count));
+}
+
+void Distribution::restart(std::int64_t steps) {
+    steps_ = 0;
+    extend(steps);
+}
+
+void Distribution::extend(std::int64_t steps) {
+    const std::int64_t before = steps_;
+    if (steps <= before) return;
+    steps_ = steps;
+    const auto rows = static_cast<std::size_t>(steps);
+    means_.resize(rows * reals());
+    deviations_.resize(means_.size());
+    probabilities_.resize(rows * logits());
+    cumulative_.resize(probabilities_.size());
+    begin_steps(before);
+}
+
+void Distribution::begin_steps(std::int64_t from) {
+    for (auto t = static_cast<std::size_t>(from); t < static_cast<std::size_t>(steps_); ++t) {
+        std::ranges::copy(first_means_, means_.begin() + t * reals());
+        std::ranges::copy(first_probabilities_, probabilities_.begin() + t * logits());
+    }
+    std::fill(deviations_.begin() + from * space_.real_count(), deviations_.end(),
+              static_cast<float>(spread_.first));
+}
+
+void Distribution::shift() {
+    std::shift_left(means_.begin(), means_.end(), space_.real_count());
+    std::shift_left(deviations_.begin(), deviations_.end(), space_.real_count());
+    std::shift_left(probabilities_.begin(), probabilities_.end(), space_.logit_count);
+    const auto least = static_cast<float>(spread_.shifted * spread_.first);
+    for (float& deviation : deviations_) deviation = std::max(deviation, least);
+    for (std::size_t k = 0; k < probabilities_.size(); ++k)
+        probabilities_[k] +=
+            shifted_share * (first_probabilities_[k % logits()] - probabilities_[k]);
+    begin_steps(steps_ - 1);
+}
+
+void Distribution::prepare() {
+    const auto add_up = [&](std::size_t first, std::size_t count) {
+        float sum = 0;
+        for (std::size_t k = first; k < first + count; ++k)
+            cumulative_[k] = sum += probabilities_[k];
+    };
+    for (std::size_t t = 0; t < static_cast<std::size_t>(steps_); ++t) {
+        if (space_.picks > 0) add_up(t * logits(), logits());
+        for (const CategoryHead& head : space_.categories)
+            add_up(t * logits() + static_cast<std::size_t>(head.first_logit),
+                   static_cast<std::size_t>(head.count));
+    }
+}
+
+void Distribution::draw(Luck& luck, double correlation, Course& course) const {
+    const auto old = static_cast<float>(correlation);
+    const auto fresh = static_cast<float>(std::sqrt(1 - correlation * correlation));
+    float* const latent = latent_.data();
+    for (std::size_t t = 0; t < static_cast<std::size_t>(steps_); ++t) {
+        for (float& noise : latent_)
+            noise = t == 0 ? luck.bell() : old * noise + fresh * luck.bell();
+        const std::size_t row = t * reals();
+        for (std::size_t r = 0; r < reals(); ++r) {
+            float number = means_[row + r] + deviations_[row + r] * latent[r];
+            if (space_.reals[r].range == RealHead::Range::Bounded)
+                number = std::clamp(number, -1.0f, 1.0f);
+            course.numbers[row + r] = number;
+        }
+        const float* const cumulative = cumulative_.data() + t * logits();
+        std::int32_t* const chosen = course.indices.data() + t * indices();
+        if (space_.picks > 0)
+            draw_picks(latent + reals(), cumulative, chosen);
+        else
+            draw_categories(latent + reals(), cumulative, chosen);
+    }
+}
+
+void Distribution::draw_categories(const float* latent, const float* cumulative,
+                                   std::int32_t* chosen) const {
+    for (std::size_t h = 0; h < space_.categories.size(); ++h) {
+        const CategoryHead& head = space_.categories[h];
+        chosen[h] = place_in(cumulative + head.first_logit, static_cast<std::size_t>(head.count),
+                             share_below(latent[h]));
+    }
+}
+
+// A value that was picked before is not picked again: that pick is left out.
+void Distribution::draw_picks(const float* latent, const float* cumulative,
+                              std::int32_t* chosen) const {
+    int picked = 0;
+    for (int p = 0; p < space_.picks; ++p) {
+        const std::int32_t pick =
+            place_in(cumulative, logits(), share_below(latent[static_cast<std::size_t>(p)]));
+        if (pick == 0) break;
+        const int column = space_.choices[static_cast<std::size_t>(pick)].column;
+        if (!has_picked(space_, chosen, picked, column)) chosen[picked++] = pick;
+    }
+    std::fill(chosen + picked, chosen + space_.picks, 0);
+}
+
+void Distribution::middle(Course& course) const {
+    std::copy_n(means_.begin(), means_.size(), course.numbers.begin());
+    for (std::size_t t = 0; t < static_cast<std::size_t>(steps_); ++t) {
+        const float* const row = probabilities_.data() + t * logits();
+        std::int32_t* const chosen = course.indices.data() + t * indices();
+        for (std::size_t h = 0; h < space_.categories.size(); ++h) {
+            const float* const first = row + space_.categories[h].first_logit;
+            chosen[h] = static_cast<std::int32_t>(
+                std::max_element(first, first + space_.categories[h].count) - first);
+        }
+        // The likeliest picks, down to where it is likelier to stop.
+        int picked = 0;
+        for (; picked < space_.picks; ++picked) {
+            std::int32_t best = 0;
+            for (std::size_t c = 1; c < logits(); ++c)
+                if (row[c] > row[best] &&
+                    !has_picked(space_, chosen, picked, space_.choices[c].column))
+                    best = static_cast<std::int32_t>(c);
+            if (best == 0) break;
+            chosen[picked] = best;
+        }
+        if (space_.picks > 0) std::fill(chosen + picked, chosen + space_.picks, 0);
+    }
+}
+
+void Distribution::fit(std::span<const Course* const> courses, std::span<const double> weights,
+                       double memory, bool keeps_deviations) {
+    for (std::int64_t t = 0; t < steps_; ++t) {
+        fit_reals(t, courses, weights, memory, keeps_deviations);
+        if (logits() > 0) fit_indices(t, courses, weights, memory);
+    }
+}
+
+void Distribution::fit_reals(std::int64_t step, std::span<const Course* const> courses,
+                             std::span<const double> weights, double memory,
+                             bool keeps_deviations) {
+    const std::size_t row = static_cast<std::size_t>(step) * reals();
+    for (std::size_t k = row; k < row + reals(); ++k) {
+        double mean = 0, square = 0;
+        for (std::size_t c = 0; c < courses.size(); ++c)
+            mean += weights[c] * static_cast<double>(courses[c]->numbers[k]);
+        for (std::size_t c = 0; c < courses.size(); ++c) {
+            const double difference = static_cast<double>(courses[c]->numbers[k]) - mean;
+            square += weights[c] * difference * difference;
+        }
+        means_[k] =
+            static_cast<float>(memory * static_cast<double>(means_[k]) + (1 - memory) * mean);
+        if (keeps_deviations) continue;
+        const double deviation =
+            memory * static_cast<double>(deviations_[k]) + (1 - memory) * std::sqrt(square);
+        deviations_[k] = static_cast<float>(std::max(deviation, spread_.least * spread_.first));
+    }
+}
+
+void Distribution::fit_indices(std::int64_t step, std::span<const Course* const> courses,
+                               std::span<const double> weights, double memory) {
+    const std::size_t row = static_cast<std::size_t>(step) * indices();
+    std::ranges::fill(fitted_, 0.0f);
+    for (std::size_t c = 0; c < courses.size(); ++c) {
+        const std::int32_t* const chosen = courses[c]->indices.data() + row;
+        const auto weight = static_cast<float>(weights[c]);
+        for (std::size_t h = 0; h < space_.categories.size(); ++h)
+            fitted_[static_cast<std::size_t>(space_.categories[h].first_logit + chosen[h])] +=
+                weight;
+        for (int p = 0; p < space_.picks; ++p) {
+            fitted_[static_cast<std::size_t>(chosen[p])] += weight;
+            if (chosen[p] == 0) break;
+        }
+    }
+    float picks = 0;  // that were made on average, stops included
+    if (space_.picks > 0)
+        for (const float share : fitted_) picks += share;
+    float* const probabilities = probabilities_.data() + static_cast<std::size_t>(step) * logits();
+    for (std::size_t k = 0; k < logits(); ++k) {
+        const float share = space_.picks > 0 ? fitted_[k] / picks : fitted_[k];
+        const float fit = share + least_share * (first_probabilities_[k] - share);
+        const auto part = static_cast<float>(memory);
+        probabilities[k] = part * probabilities[k] + (1 - part) * fit;
+    }
+}
+
+}  // namespace rddlc::planners

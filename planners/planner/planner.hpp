@@ -1,0 +1,70 @@
+// The one interface of all planners: they search before each action.
+#pragma once
+
+#include "solvers/batches/stops.hpp"
+#include "solvers/policies/policy.hpp"
+
+#include <rddl/simulator.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace rddlc::planners {
+
+inline constexpr std::int64_t no_end = std::numeric_limits<std::int64_t>::max();
+
+// The environment that an action is wanted for.
+struct Situation {
+    const rddl_batch* batch;
+    std::int64_t place;  // in the batch
+    std::int64_t episode;
+    std::int64_t step;
+    std::int64_t left;     // steps until the horizon, at least 1; no_end: there is none
+    std::int64_t horizon;  // that batches of the planner take
+    const solvers::Stops* stops = nullptr;
+    // What the base policy does here, which knows the episode from its beginning; NULL: there is
+    // none.
+    const std::byte* base_action = nullptr;
+};
+
+// What a decision was made by.
+struct Thoughts {
+    struct Candidate {
+        std::string name;  // "mean", "noop", ...
+        std::vector<std::byte> action;
+        double value = 0;  // the mean return that was found, discounted
+        double error = 0;  // of the mean: a standard error
+        std::int64_t trials = 0;
+    };
+    std::int64_t episode = 0, step = 0;
+    std::int64_t depth = 0;  // steps that were looked ahead
+    std::int64_t iterations = 0, steps = 0;
+    std::string note = {};  // why there was no search
+    std::vector<Candidate> candidates = {};
+    std::size_t chosen = 0;  // of the candidates
+};
+
+class Planner {
+  public:
+    virtual ~Planner() = default;
+    // Writes the action record. Where step is 0 the episode of this place begins. Thoughts are
+    // added to `thoughts`, unless it is NULL.
+    virtual void decide(const Situation& situation, std::byte* action, Thoughts* thoughts) = 0;
+};
+
+// What every planner is made with.
+struct Surroundings {
+    const rddl_simulator& simulator;
+    std::int64_t environments;  // that it acts in
+    std::int64_t horizon;       // of batches: 0: the instance's; RDDL_NO_HORIZON: none
+    std::int64_t memory_limit;
+    // That roll-outs follow; nothing: the user names none.
+    std::optional<solvers::Policy> base = {};
+};
+
+}  // namespace rddlc::planners

@@ -1,0 +1,249 @@
+#include "planners/planner/planner_policy.hpp"
+
+#include "planners/cem/cem.hpp"
+#include "planners/cem/cem_options.hpp"
+#include "planners/planner/common_options.hpp"
+#include "planners/rollout/rollout.hpp"
+#include "planners/rollout/rollout_options.hpp"
+#include "planners/uct/uct.hpp"
+#include "planners/uct/uct_options.hpp"
+#include "solvers/files/fingerprint.hpp"
+#include "support/diagnostic.hpp"
+#include "support/failure.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+#include <optional>
+#include <utility>
+
+namespace rddlc::planners {
+
+namespace {
+
+using Words = std::vector<std::pair<std::string, std::string>>;  // key and value
+
+// A planner with the options that the user has given.
+struct Chosen {
+    std::string name;
+    CommonOptions common;
+    std::function<std::unique_ptr<Planner>(const Surroundings&)> make;
+};
+
+struct Entry {
+    PlannerText text;
+    bool needs_policy = false;
+    std::function<Chosen(const Words&)> read;
+};
+
+Failure usage(const std::string& message) {
+    return Failure(message, {}, usage_error);
+}
+
+template <class Options>
+void set_option(const std::string& planner, const solvers::OptionTable<Options>& table,
+                const std::string& key, const std::string& value, Options& options) {
+    const auto found = std::ranges::find(table, key, &PlannerOption<Options>::name);
+    if (found == table.end()) {
+        const std::vector<solvers::OptionText> known(table.begin(), table.end());
+        throw usage(fmt::format("plan:{}: {}", planner,
+                                solvers::unknown_option(key, known, solvers::Face::CommandLine)));
+    }
+    try {
+        found->set(options, {value});
+    } catch (const solvers::OptionRefused& refused) {
+        throw usage(fmt::format("plan:{}: {}: {}", planner, key, refused.what()));
+    }
+}
+
+template <class Options, class ItsPlanner>
+Entry entry(const std::string& name, const std::string& summary, bool needs_policy,
+            const solvers::OptionTable<Options>& (*table)()) {
+    Entry made{{name, summary, {}}, needs_policy, {}};
+    for (const PlannerOption<Options>& option : table()) made.text.options.push_back(option);
+    made.read = [name, table](const Words& words) {
+        Options options;
+        for (const auto& [key, value] : words) set_option(name, table(), key, value, options);
+        return Chosen{name, options, [options](const Surroundings& surroundings) {
+                          return std::make_unique<ItsPlanner>(surroundings, options);
+                      }};
+    };
+    return made;
+}
+
+const std::vector<Entry>& entries() {
+    static const std::vector<Entry> all = {
+        entry<CemOptions, Cem>("cem",
+                               "the best of many courses of actions, sampled again and again; for "
+                               "reals, ints, bools and objects",
+                               false, cem_option_table),
+        entry<RolloutOptions, Rollout>("rollout",
+                                       "each action of a policy improved: others are tried, and "
+                                       "the policy plays on",
+                                       true, rollout_option_table),
+        entry<UctOptions, Uct>("uct",
+                               "a tree of actions and of what they lead to, built by trials; for "
+                               "finitely many actions",
+                               false, uct_option_table),
+    };
+    return all;
+}
+
+// "cem,seconds=0.1" -> "cem", {{"seconds", "0.1"}}
+std::pair<std::string, Words> words_of(const std::string& policy) {
+    std::vector<std::string> parts =
+        solvers::words_of_list(policy.substr(std::string_view(prefix).size()));
+    Words words;
+    for (std::size_t i = 1; i < parts.size(); ++i) {
+        const std::size_t sign = parts[i].find('=');
+        if (sign == std::string::npos)
+            throw usage(fmt::format("plan:{}: '{}' is no option: options have the form key=value",
+                                    parts.front(), parts[i]));
+        words.emplace_back(parts[i].substr(0, sign), parts[i].substr(sign + 1));
+    }
+    return {std::move(parts.front()), std::move(words)};
+}
+
+const Entry& entry_named(const std::string& name) {
+    std::vector<std::string> known;
+    for (const Entry& entry : entries()) {
+        if (entry.text.name == name) return entry;
+        known.push_back(entry.text.name);
+    }
+    const auto near = did_you_mean(name, known);
+    std::string all;
+    for (const std::string& each : known) all += (all.empty() ? "" : ", ") + each;
+    throw usage(near ? fmt::format("there is no planner '{}'; did you mean '{}'?", name, *near)
+                     : fmt::format("there is no planner '{}'; there are {}", name, all));
+}
+
+Chosen read_planner(const std::string& policy) {
+    const auto [name, words] = words_of(policy);
+    const Entry& entry = entry_named(name);
+    Chosen chosen = entry.read(words);
+    if (is_planner(chosen.common.policy))
+        throw usage(fmt::format("plan:{}: policy: a planner cannot follow another one", name));
+    if (entry.needs_policy && chosen.common.policy.empty())
+        throw usage(
+            fmt::format("plan:{0} improves a policy: say which one, as in "
+                        "plan:{0},policy=random",
+                        name));
+    return chosen;
+}
+
+void require_sight(const rddl_problem& problem, const Chosen& chosen, bool cheat) {
+    if (!problem.partially_observed || chosen.common.cheat || cheat) return;
+    throw Failure(
+        fmt::format("plan:{} needs the state, which {} ({}) hides from policies", chosen.name,
+                    problem.instance, problem.domain),
+        fmt::format("let it look at the state with --cheat or plan:{},cheat=yes", chosen.name));
+}
+
+// Plans for the environments of a batch, one after the other.
+class PlanningActor {
+  public:
+    PlanningActor(const rddl_simulator& simulator, const Chosen& chosen,
+                  std::optional<solvers::Policy> base, const PolicySettings& settings,
+                  std::int64_t environments)
+        : simulator_(simulator),
+          chosen_(chosen),
+          base_(std::move(base)),
+          settings_(settings),
+          environments_(environments) {}
+
+    void act(solvers::Decision& decision) {
+        const rddl_problem& problem = *simulator_.problem;
+        if (!planner_)
+            planner_ = chosen_.make(
+                {simulator_, environments_, decision.horizon, settings_.memory_limit, base_});
+        const std::int64_t horizon = decision.horizon == 0                 ? problem.horizon
+                                     : decision.horizon == RDDL_NO_HORIZON ? 0
+                                                                           : decision.horizon;
+        if (base_) ask_base(decision);
+        for (std::size_t i = 0; i < decision.running.size(); ++i) {
+            if (!decision.running[i]) continue;
+            if (solvers::is_stopped(decision.stops)) return;
+            Situation situation{decision.batch,
+                                static_cast<std::int64_t>(i),
+                                decision.episodes[i],
+                                decision.steps[i],
+                                no_end,
+                                decision.horizon,
+                                decision.stops};
+            if (horizon > 0) situation.left = std::max<std::int64_t>(1, horizon - situation.step);
+            if (base_)
+                situation.base_action =
+                    base_actions_.data() + i * static_cast<std::size_t>(problem.action_size);
+            Thoughts thoughts{situation.episode, situation.step};
+            planner_->decide(situation,
+                             decision.actions + i * static_cast<std::size_t>(problem.action_size),
+                             settings_.explain ? &thoughts : nullptr);
+            if (settings_.explain) settings_.explain(thoughts);
+        }
+    }
+
+  private:
+    // It sees every step, and remembers what it needs of the episode.
+    void ask_base(const solvers::Decision& decision) {
+        if (!base_actor_) {
+            base_actor_ = base_->start(environments_);
+            base_actions_.resize(
+                static_cast<std::size_t>(environments_ * simulator_.problem->action_size));
+            base_violated_.resize(static_cast<std::size_t>(environments_));
+        }
+        solvers::Decision asked = decision;
+        asked.actions = base_actions_.data();
+        asked.violated = base_violated_;
+        base_actor_(asked);
+    }
+
+    const rddl_simulator& simulator_;
+    Chosen chosen_;
+    std::optional<solvers::Policy> base_;
+    PolicySettings settings_;
+    std::int64_t environments_;
+    std::unique_ptr<Planner> planner_;
+    solvers::Actor base_actor_;
+    std::vector<std::byte> base_actions_;
+    std::vector<std::int32_t> base_violated_;
+};
+
+}  // namespace
+
+const std::vector<PlannerText>& planner_texts() {
+    static const std::vector<PlannerText> texts = [] {
+        std::vector<PlannerText> all;
+        for (const Entry& entry : entries()) all.push_back(entry.text);
+        return all;
+    }();
+    return texts;
+}
+
+void require_planner(const std::string& policy) {
+    read_planner(policy);
+}
+
+solvers::Policy planner_policy(const rddl_simulator& simulator, const std::string& policy,
+                               const PolicySettings& settings) {
+    // The seed of the command is what the text is read on top of.
+    const auto [name, words] = words_of(policy);
+    const bool has_seed =
+        std::ranges::any_of(words, [](const auto& word) { return word.first == "seed"; });
+    const Chosen chosen =
+        read_planner(has_seed ? policy : fmt::format("{},seed={}", policy, settings.seed));
+    require_sight(*simulator.problem, chosen, settings.cheat);
+    std::optional<solvers::Policy> base;
+    if (!chosen.common.policy.empty()) base = settings.named(chosen.common.policy);
+    const auto start = [&simulator, chosen, base,
+                        settings](std::int64_t environments) -> solvers::Actor {
+        const auto actor =
+            std::make_shared<PlanningActor>(simulator, chosen, base, settings, environments);
+        return [actor](solvers::Decision& decision) {
+            actor->act(decision);
+        };
+    };
+    return {policy, solvers::spaces_of(simulator), start};
+}
+
+}  // namespace rddlc::planners

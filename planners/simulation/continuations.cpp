@@ -1,0 +1,72 @@
+#include "planners/simulation/continuations.hpp"
+
+#include "solvers/batches/batch.hpp"
+
+#include <algorithm>
+
+namespace rddlc::planners {
+
+Continuations::Continuations(const rddl_simulator& simulator, std::int64_t lanes,
+                             std::int64_t horizon)
+    : simulator_(simulator),
+      state_size_(static_cast<std::size_t>(simulator.problem->state_size)),
+      action_size_(static_cast<std::size_t>(simulator.problem->action_size)),
+      futures_(simulator, lanes, horizon),
+      states_(futures_.running().size() * state_size_),
+      actions_(futures_.running().size() * action_size_),
+      first_actions_(actions_.size()),
+      first_states_(states_.size()),
+      steps_(futures_.running().size()),
+      lucks_(steps_.size()),
+      wanted_(steps_.size()),
+      all_wanted_(steps_.size(), 1),
+      first_rewards_(steps_.size()) {}
+
+// Lanes without a start are as the situation, and run no further.
+void Continuations::begin(const Situation& situation, std::span<const Start> starts) {
+    bool is_elsewhere = false;
+    for (std::size_t k = 0; k < lanes(); ++k) {
+        const bool has_start = k < starts.size();
+        lucks_[k] = has_start ? starts[k].luck : 0;
+        steps_[k] = has_start ? starts[k].step : situation.step;
+        wanted_[k] = has_start && !starts[k].action;
+        is_elsewhere |= has_start && starts[k].state;
+    }
+    futures_.begin(situation.batch, situation.place, lucks_);
+    if (is_elsewhere) {
+        solvers::require_done(simulator_, simulator_.get_state(futures_.batch(), 0,
+                                                               futures_.count(), states_.data()));
+        for (std::size_t k = 0; k < starts.size(); ++k)
+            if (starts[k].state)
+                std::copy_n(starts[k].state, state_size_, states_.data() + k * state_size_);
+        futures_.place(states_.data(), steps_);
+    }
+    for (std::size_t k = 0; k < lanes(); ++k)
+        futures_.set_limit(k, k < starts.size() ? starts[k].depth : 1);
+    const auto* const none = static_cast<const std::byte*>(simulator_.problem->default_action);
+    for (std::size_t k = 0; k < lanes(); ++k)
+        std::copy_n(k < starts.size() && starts[k].action ? starts[k].action : none, action_size_,
+                    actions_.data() + k * action_size_);
+}
+
+bool Continuations::run(const Situation& situation, std::span<const Start> starts,
+                        BasePolicy& policy, Meter& meter) {
+    begin(situation, starts);
+    policy.begin(situation.episode, steps_, situation.horizon, lucks_);
+    for (depth_ = 0; futures_.any_running(); ++depth_) {
+        policy.act(futures_, depth_ == 0 ? wanted_ : all_wanted_, actions_.data(), situation.stops);
+        if (depth_ == 0) first_actions_ = actions_;
+        if (depth_ % 4 == 0 && meter.is_late()) return false;
+        futures_.step(actions_.data());
+        const auto idle = static_cast<std::int64_t>(depth_ == 0 ? lanes() - starts.size() : 0);
+        meter.add_steps(futures_.stepped() - idle);
+        if (depth_ > 0) continue;
+        solvers::require_done(
+            simulator_,
+            simulator_.get_state(futures_.batch(), 0, futures_.count(), first_states_.data()));
+        for (std::size_t k = 0; k < lanes(); ++k) first_rewards_[k] = futures_.reward(k);
+    }
+    return true;
+}
+
+}  // namespace rddlc::planners

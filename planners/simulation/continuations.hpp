@@ -1,0 +1,65 @@
+// What comes of an action, or of a state, if a policy plays on from there: many of them in one
+// batch.
+#pragma once
+
+#include "planners/planner/planner.hpp"
+#include "planners/simulation/base_policy.hpp"
+#include "planners/simulation/futures.hpp"
+#include "planners/simulation/meter.hpp"
+
+#include <rddl/simulator.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace rddlc::planners {
+
+struct Start {
+    const std::byte* state;   // NULL: that of the situation
+    std::int64_t step;        // of the episode, of that state
+    const std::byte* action;  // the first one; NULL: the policy's, too
+    std::int64_t depth;       // steps, at least 1
+    std::uint64_t luck;
+};
+
+class Continuations {
+  public:
+    Continuations(const rddl_simulator& simulator, std::int64_t lanes, std::int64_t horizon);
+
+    std::size_t lanes() const { return static_cast<std::size_t>(futures_.count()); }
+    // At most `lanes` of them. False where time was up: then values are those of fewer steps.
+    bool run(const Situation& situation, std::span<const Start> starts, BasePolicy& policy,
+             Meter& meter);
+
+    // Of start k: the discounted sum of rewards, the first of them, and the state after it.
+    double value(std::size_t k) const { return futures_.value(k); }
+    // Whether its steps ended before its episode did, and the reward of the last step.
+    bool is_cut(std::size_t k) const { return futures_.is_cut(k); }
+    double last_reward(std::size_t k) const { return futures_.last_reward(k); }
+    double first_reward(std::size_t k) const { return first_rewards_[k]; }
+    const std::byte* first_state(std::size_t k) const {
+        return first_states_.data() + k * state_size_;
+    }
+    const std::byte* first_action(std::size_t k) const {
+        return first_actions_.data() + k * action_size_;
+    }
+    // Steps that were made of all starts: 0 where time was up before the first one.
+    std::int64_t depth() const { return depth_; }
+
+  private:
+    void begin(const Situation& situation, std::span<const Start> starts);
+
+    const rddl_simulator& simulator_;
+    std::size_t state_size_, action_size_;
+    Futures futures_;
+    std::vector<std::byte> states_, actions_, first_actions_, first_states_;
+    std::vector<std::int64_t> steps_;
+    std::vector<std::uint64_t> lucks_;
+    std::vector<std::uint8_t> wanted_, all_wanted_;  // of the policy
+    std::vector<double> first_rewards_;
+    std::int64_t depth_ = 0;
+};
+
+}  // namespace rddlc::planners

@@ -1,0 +1,107 @@
+#include "planners/simulation/finite_actions.hpp"
+
+#include "solvers/batches/batch.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace rddlc::planners {
+
+using solvers::ActionSpace;
+using solvers::CategoryHead;
+
+namespace {
+
+double count_of_categories(const ActionSpace& space) {
+    double count = 1;
+    for (const CategoryHead& head : space.categories) count *= head.count;
+    return count;
+}
+
+// Of the columns that picks change, how many sets of so many there are at most.
+double count_of_picks(const ActionSpace& space) {
+    const auto changes = static_cast<double>(space.choices.size() - 1);
+    double count = 1, sets = 1;
+    for (int picks = 1; picks <= space.picks && picks <= changes; ++picks) {
+        sets *= (changes - picks + 1) / picks;
+        count += sets;
+    }
+    return count;
+}
+
+}  // namespace
+
+std::optional<FiniteActions> FiniteActions::of(const rddl_simulator& simulator,
+                                               const ActionSpace& space, std::size_t most) {
+    if (!space.reals.empty()) return std::nullopt;
+    const double count = space.picks > 0 ? count_of_picks(space) : count_of_categories(space);
+    if (count > static_cast<double>(most)) return std::nullopt;
+    FiniteActions actions(simulator, space.may_be_illegal);
+    actions.size_ = static_cast<std::size_t>(simulator.problem->action_size);
+    if (space.picks > 0)
+        actions.add_picks(space);
+    else
+        actions.add_categories(space);
+    return actions;
+}
+
+void FiniteActions::add(const ActionSpace& space, const std::vector<std::int32_t>& indices) {
+    std::vector<float> row(static_cast<std::size_t>(space.column_count));
+    solvers::write_action(space, nullptr, indices.data(), row.data());
+    records_.resize((count_ + 1) * size_);
+    solvers::ActionRecords(*simulator_).write(row.data(), records_.data() + count_ * size_);
+    const auto* const none = static_cast<const std::byte*>(simulator_->problem->default_action);
+    if (count_ > 0 && std::equal(none, none + size_, record(count_)))
+        std::swap_ranges(records_.begin(), records_.begin() + static_cast<std::ptrdiff_t>(size_),
+                         records_.begin() + static_cast<std::ptrdiff_t>(count_ * size_));
+    ++count_;
+}
+
+void FiniteActions::add_categories(const ActionSpace& space) {
+    std::vector<std::int32_t> indices(space.categories.size(), 0);
+    for (;;) {
+        add(space, indices);
+        std::size_t h = 0;
+        for (; h < indices.size() && ++indices[h] == space.categories[h].count; ++h) indices[h] = 0;
+        if (h == indices.size()) return;
+    }
+}
+
+// Sets in ascending order of their choices, the smaller ones first.
+void FiniteActions::add_picks(const ActionSpace& space) {
+    std::vector<std::vector<std::int32_t>> sets{{}};
+    for (std::size_t s = 0; s < sets.size(); ++s) {
+        std::vector<std::int32_t> indices = sets[s];
+        indices.resize(static_cast<std::size_t>(space.picks), 0);
+        add(space, indices);
+        if (static_cast<int>(sets[s].size()) == space.picks) continue;
+        const std::int32_t first = sets[s].empty() ? 1 : sets[s].back() + 1;
+        for (auto c = first; c < static_cast<std::int32_t>(space.choices.size()); ++c) {
+            const auto column = [&](std::int32_t choice) {
+                return space.choices[static_cast<std::size_t>(choice)].column;
+            };
+            if (!sets[s].empty() && column(c) == column(sets[s].back())) continue;
+            sets.push_back(sets[s]);
+            sets.back().push_back(c);
+        }
+    }
+}
+
+void FiniteActions::find_legal(const rddl_batch* batch, std::int64_t place,
+                               std::vector<std::uint8_t>& legal) {
+    legal.assign(count_, 1);
+    if (!asks_) return;
+    if (!lanes_) {
+        lanes_.emplace(*simulator_, static_cast<std::int64_t>(count_), 0);
+        lucks_.resize(count_);
+        violated_.resize(count_);
+    }
+    lanes_->begin(batch, place, lucks_);
+    solvers::require_done(*simulator_, simulator_->violated_preconditions(
+                                           lanes_->batch(), records_.data(), violated_.data()));
+    bool any = false;
+    for (std::size_t a = 0; a < count_; ++a) any |= legal[a] = violated_[a] < 0;
+    if (!any) legal.assign(count_, 1);
+}
+
+}  // namespace rddlc::planners

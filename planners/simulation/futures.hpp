@@ -1,0 +1,61 @@
+// What may come of a state: copies of one environment, each with luck of its own, in one batch.
+#pragma once
+
+#include "solvers/batches/batch.hpp"
+
+#include <rddl/simulator.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace rddlc::planners {
+
+class Futures {
+  public:
+    // `horizon` as batches have it: 0: the instance's, RDDL_NO_HORIZON: none.
+    Futures(const rddl_simulator& simulator, std::int64_t count, std::int64_t horizon);
+
+    // All begin where environment `place` of the batch stands; the k-th has the luck of lucks[k].
+    void begin(const rddl_batch* from, std::int64_t place, std::span<const std::uint64_t> lucks);
+    // The k-th goes on from states[k], after so many steps; those of lanes that are not wanted are
+    // any that the problem has.
+    void place(const std::byte* states, std::span<const std::int64_t> steps);
+    // Stops the k-th after so many steps from here; no caller reads what the batch does with it
+    // then.
+    void set_limit(std::size_t k, std::int64_t steps) { limits_[k] = steps; }
+    // A record for each, or a row of values.
+    void step(const std::byte* actions);
+    void step_values(const float* actions);
+
+    rddl_batch* batch() { return batch_.get(); }
+    std::int64_t count() const { return static_cast<std::int64_t>(returns_.size()); }
+    bool is_running(std::size_t k) const { return running_[k] != 0; }
+    std::span<const std::uint8_t> running() const { return running_; }
+    bool any_running() const { return running_count_ > 0; }
+    // So many environments made the last step.
+    std::int64_t stepped() const { return stepped_; }
+    // Of the last step; 0 where the episode was over before.
+    double reward(std::size_t k) const { return rewards_[k]; }
+    // Of its own last step, and whether a limit was what ended it.
+    double last_reward(std::size_t k) const { return last_rewards_[k]; }
+    bool is_cut(std::size_t k) const { return cut_[k] != 0; }
+    // The discounted sum since the beginning; -inf after a fault or a reward that is not finite.
+    double value(std::size_t k) const { return returns_[k]; }
+
+  private:
+    void look_at_causes();
+    void take_step();
+
+    const rddl_simulator& simulator_;
+    solvers::BatchHandle batch_;
+    std::vector<std::int64_t> sources_;
+    std::vector<std::int64_t> limits_;  // steps that are left
+    std::vector<double> rewards_, last_rewards_, returns_;
+    std::vector<std::uint8_t> causes_, running_, cut_;
+    std::int64_t running_count_ = 0, stepped_ = 0;
+    double discount_ = 1;
+};
+
+}  // namespace rddlc::planners

@@ -1,0 +1,293 @@
+#include "planners/uct/uct.hpp"
+
+#include "planners/simulation/luck.hpp"
+#include "support/failure.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace rddlc::planners {
+
+namespace {
+
+constexpr std::int64_t first_depth = 40;
+// Environments in which leaves are valued together, at most.
+constexpr std::int64_t most_leaf_lanes = 1024;
+// Draws that the policy is chosen by, each of all of its steps.
+constexpr std::size_t policy_draws = 32;
+// Steps by which new states are valued where more of them show nothing.
+constexpr std::int64_t short_leaf = 2;
+// Draws for each action of the root.
+constexpr std::size_t root_draws = 8;
+// An action is not chosen in the end if it was tried less than this part of the one tried most.
+constexpr double least_tried = 0.2;
+
+FiniteActions finite_actions(const rddl_simulator& simulator, int most) {
+    const solvers::ActionSpace space = solvers::action_space(simulator);
+    if (auto actions = FiniteActions::of(simulator, space, static_cast<std::size_t>(most)))
+        return std::move(*actions);
+    const rddl_problem& problem = *simulator.problem;
+    if (!space.reals.empty())
+        throw Failure(fmt::format("plan:uct needs finitely many actions, and '{}' of {} ({}) is "
+                                  "any number",
+                                  space.names[static_cast<std::size_t>(space.reals.front().column)],
+                                  problem.instance, problem.domain),
+                      "take plan:cem");
+    throw Failure(fmt::format("plan:uct takes at most {} actions, and {} ({}) has more", most,
+                              problem.instance, problem.domain),
+                  "take plan:cem, or allow more with actions=N");
+}
+
+std::int64_t affordable_lanes(const UctOptions& options, std::int64_t wanted) {
+    return std::clamp<std::int64_t>(options.budget.steps.value_or(most_steps) / 40, 1, wanted);
+}
+
+std::int64_t leaf_lanes(const UctOptions& options, std::size_t actions) {
+    const auto each =
+        static_cast<std::int64_t>(options.initial == Initial::Lookahead ? actions : 1);
+    return std::clamp<std::int64_t>(affordable_lanes(options, options.lanes) * each, 1,
+                                    most_leaf_lanes);
+}
+
+}  // namespace
+
+Uct::Uct(const Surroundings& surroundings, const UctOptions& options)
+    : simulator_(surroundings.simulator),
+      options_(options),
+      state_size_(static_cast<std::size_t>(simulator_.problem->state_size)),
+      action_size_(static_cast<std::size_t>(simulator_.problem->action_size)),
+      actions_(finite_actions(simulator_, options.actions)),
+      trees_(simulator_, affordable_lanes(options, options.lanes), surroundings.horizon),
+      continuations_(simulator_, leaf_lanes(options, actions_.count()), surroundings.horizon),
+      tree_(state_size_, simulator_.problem->discount, options.backup),
+      trials_(trees_.running().size()),
+      lucks_(trials_.size()),
+      records_(trials_.size() * action_size_),
+      states_(trials_.size() * state_size_) {
+    const auto lanes = static_cast<std::int64_t>(continuations_.lanes());
+    if (surroundings.base)
+        policies_.emplace_back(simulator_, *surroundings.base, lanes);
+    else {
+        policies_.emplace_back(simulator_, solvers::noop_policy(simulator_), lanes);
+        policies_.emplace_back(simulator_, solvers::random_policy(simulator_, options.seed), lanes);
+    }
+}
+
+// Chooses the one with the greatest return from here on.
+void Uct::choose_policy(const Situation& situation, Luck& luck, Meter& meter) {
+    policy_ = 0;
+    const std::size_t draws = std::min(policy_draws, continuations_.lanes());
+    const auto cost = static_cast<std::int64_t>(draws * policies_.size()) * depth_;
+    // A tenth of the budget may go there.
+    if (policies_.size() == 1 || !meter.has_room(10 * cost, 0)) return;
+    starts_.clear();
+    for (std::size_t d = 0; d < draws; ++d)
+        starts_.push_back({nullptr, step_, nullptr, depth_, luck.bits()});
+    double best = 0;
+    for (std::size_t p = 0; p < policies_.size(); ++p) {
+        if (!continuations_.run(situation, starts_, policies_[p], meter)) return;
+        double sum = 0;
+        for (std::size_t k = 0; k < draws; ++k) sum += continuations_.value(k);
+        if (p > 0 && !(sum > best)) continue;
+        best = sum;
+        policy_ = p;
+    }
+}
+
+void Uct::add_edges(NodeId node, const rddl_batch* batch, std::int64_t place) {
+    actions_.find_legal(batch, place, legal_);
+    for (std::size_t a = 0; a < actions_.count(); ++a)
+        if (legal_[a]) tree_.add_edge(node, static_cast<std::uint32_t>(a));
+}
+
+bool Uct::open_root(const Situation& situation, Luck& luck, Meter& meter) {
+    solvers::require_done(
+        simulator_, simulator_.get_state(situation.batch, situation.place, 1, states_.data()));
+    tree_.clear();
+    root_ = tree_.node_of(states_.data(), 0).first;
+    new_nodes_.assign(1, root_);
+    add_edges(root_, situation.batch, situation.place);
+    least_ = std::numeric_limits<double>::infinity();
+    most_ = -least_;
+    leaf_depth_ = depth_;
+    const auto edges = static_cast<std::int64_t>(tree_.node(root_).edge_count);
+    if (!meter.has_room(edges, 0)) return false;
+    const bool is_cheap =
+        meter.has_room(10 * edges * depth_ * static_cast<std::int64_t>(root_draws), 0);
+    if (!value_new_nodes(situation, luck, meter, is_cheap ? root_draws : 1)) return false;
+    // Where the policy shows no difference between actions, the tree has to: it grows deeper with
+    // leaves that are looked at more shortly.
+    if (least_ == most_) leaf_depth_ = short_leaf;
+    return true;
+}
+
+// Actions without a value come first. Then the best by value and by how little it was tried (UCB1).
+EdgeId Uct::choose_edge(const Node& node, Luck& luck) {
+    double all = 1;
+    std::uint32_t untried = 0;
+    EdgeId chosen = node.first_edge;
+    for (const Edge& edge : tree_.edges(node)) {
+        all += edge.weight();
+        if (edge.weight() == 0 && luck.below(++untried) == 0)
+            chosen = node.first_edge + static_cast<EdgeId>(&edge - tree_.edges(node).data());
+    }
+    if (untried > 0) return chosen;
+    const double left = static_cast<double>(depth_ - node.depth) / static_cast<double>(depth_);
+    const double bonus = options_.exploration * std::max(0.0, most_ - least_) * left;
+    const double logarithm = std::log(all);
+    double best = -std::numeric_limits<double>::infinity();
+    // Where all that was seen is alike, the least tried action comes next.
+    for (const Edge& edge : tree_.edges(node)) {
+        // Trials that are under way count as tried, so that those beside them differ.
+        const double bound =
+            edge.value + std::max(bonus, 1e-9) * std::sqrt(logarithm / edge.weight());
+        if (!(bound > best)) continue;
+        best = bound;
+        chosen = node.first_edge + static_cast<EdgeId>(&edge - tree_.edges(node).data());
+    }
+    return chosen;
+}
+
+bool Uct::run_trials(const Situation& situation, Luck& luck, Meter& meter) {
+    for (std::uint64_t& each : lucks_) each = luck.bits();
+    trees_.begin(situation.batch, situation.place, lucks_);
+    new_nodes_.clear();
+    for (Trial& trial : trials_) {
+        trial.node = root_;
+        trial.is_down = false;
+        trial.hops.clear();
+    }
+    for (std::int64_t depth = 0; step_trials(luck, depth, meter); ++depth) {
+    }
+    if (!new_nodes_.empty() && !value_new_nodes(situation, luck, meter, 1)) return false;
+    for (const Trial& trial : trials_) back_up(trial);
+    meter.add_iterations(static_cast<std::int64_t>(trials_.size()));
+    return true;
+}
+
+// False: all have reached their leaves.
+bool Uct::step_trials(Luck& luck, std::int64_t depth, Meter& meter) {
+    std::int64_t moving = 0;
+    for (std::size_t k = 0; k < trials_.size(); ++k) {
+        Trial& trial = trials_[k];
+        const Node& node = tree_.node(trial.node);
+        trial.is_down = trial.is_down || !node.is_open || node.is_locked;
+        std::uint32_t action = 0;
+        if (!trial.is_down) {
+            const EdgeId edge = choose_edge(node, luck);
+            tree_.edge(edge).started += 1;
+            trial.hops.push_back({trial.node, edge, 0});
+            action = tree_.edge(edge).action;
+            ++moving;
+        }
+        std::copy_n(actions_.record(action), action_size_, records_.data() + k * action_size_);
+    }
+    if (moving == 0) return false;
+    trees_.step(records_.data());
+    meter.add_steps(moving);
+    solvers::require_done(simulator_,
+                          simulator_.get_state(trees_.batch(), 0, trees_.count(), states_.data()));
+    for (std::size_t k = 0; k < trials_.size(); ++k)
+        if (!trials_[k].is_down) follow(k, luck, depth + 1);
+    return true;
+}
+
+// To the node where the trial's environment is now.
+void Uct::follow(std::size_t k, Luck& luck, std::int64_t depth) {
+    Trial& trial = trials_[k];
+    Trial::Hop& hop = trial.hops.back();
+    hop.reward = trees_.reward(k);
+    const std::byte* const state = states_.data() + k * state_size_;
+    NodeId next = Tree::over;
+    if (trees_.is_running(k) && depth < depth_) {
+        const NodeId* const known = tree_.find(state, depth);
+        const Edge& edge = tree_.edge(hop.edge);
+        const bool is_full =
+            options_.outcomes > 0 &&
+            edge.outcome_count >= std::ceil(options_.outcomes * std::sqrt(edge.started));
+        if (known) {
+            next = *known;
+        } else if (is_full && (next = tree_.seen_outcome(hop.edge, luck.unit())) != Tree::over) {
+            // Progressive widening: the trial goes on from an outcome that was seen before.
+            const std::int64_t step = step_ + depth;
+            solvers::require_done(
+                simulator_, simulator_.set_state(trees_.batch(), static_cast<std::int64_t>(k), 1,
+                                                 tree_.state(next), &step));
+        } else {
+            next = tree_.node_of(state, depth).first;
+            add_edges(next, trees_.batch(), static_cast<std::int64_t>(k));
+            new_nodes_.push_back(next);
+        }
+    }
+    tree_.add_outcome(hop.edge, next);
+    trial.node = next;
+}
+
+void Uct::back_up(const Trial& trial) {
+    double rest = tree_.node(trial.node).value;
+    for (std::size_t h = trial.hops.size(); h-- > 0;) {
+        const Trial::Hop& hop = trial.hops[h];
+        tree_.back_up(hop.node, hop.edge, hop.reward, rest);
+        rest = hop.reward + tree_.discount() * rest;
+    }
+    note_return(rest);
+}
+
+void Uct::note_return(double value) {
+    if (!std::isfinite(value)) return;
+    least_ = std::min(least_, value);
+    most_ = std::max(most_, value);
+}
+
+EdgeId Uct::best_edge() const {
+    const Node& node = tree_.node(root_);
+    std::int32_t most = 0;
+    for (const Edge& edge : tree_.edges(node)) most = std::max(most, edge.weight());
+    EdgeId chosen = node.first_edge;
+    double best = -std::numeric_limits<double>::infinity();
+    for (const Edge& edge : tree_.edges(node)) {
+        if (edge.weight() == 0 || edge.weight() < least_tried * most || !(edge.value > best))
+            continue;
+        best = edge.value;
+        chosen = node.first_edge + static_cast<EdgeId>(&edge - tree_.edges(node).data());
+    }
+    return chosen;
+}
+
+void Uct::decide(const Situation& situation, std::byte* action, Thoughts* thoughts) {
+    Luck luck(options_.seed, situation.episode, situation.step);
+    Meter meter(options_.budget, situation.stops);
+    step_ = situation.step;
+    depth_ = std::min(situation.left, options_.horizon.value_or(first_depth));
+    choose_policy(situation, luck, meter);
+    const bool is_open = open_root(situation, luck, meter);
+    const Node& root = tree_.node(root_);
+    if (is_open && !root.is_locked && root.edge_count > 1)
+        while (meter.has_room(static_cast<std::int64_t>(trials_.size()) * depth_, 0) &&
+               run_trials(situation, luck, meter)) {
+        }
+    if (thoughts && root.is_locked)
+        thoughts->note = "no action changes the state or the reward any more";
+    const EdgeId chosen = best_edge();
+    std::copy_n(actions_.record(tree_.edge(chosen).action), action_size_, action);
+    if (thoughts) note_thoughts(*thoughts, chosen, meter);
+}
+
+void Uct::note_thoughts(Thoughts& thoughts, EdgeId chosen, const Meter& meter) {
+    thoughts.depth = depth_;
+    thoughts.iterations = meter.iterations();
+    thoughts.steps = meter.steps();
+    const Node& root = tree_.node(root_);
+    thoughts.chosen = chosen - root.first_edge;
+    for (const Edge& edge : tree_.edges(root)) {
+        const std::byte* const record = actions_.record(edge.action);
+        thoughts.candidates.push_back(
+            {"action", {record, record + action_size_}, edge.value, 0, edge.done + edge.estimates});
+    }
+}
+
+}  // namespace rddlc::planners

@@ -1,0 +1,89 @@
+// plan:uct: tree search by trials (UCT; Kocsis and Szepesvari, 2006), as the family THTS describes
+// it (Keller and Helmert, 2013). Many trials go down the tree side by side, each in an environment
+// of one batch, and the leaves that they reach are valued together in another one.
+#pragma once
+
+#include "planners/planner/planner.hpp"
+#include "planners/simulation/continuations.hpp"
+#include "planners/simulation/finite_actions.hpp"
+#include "planners/simulation/futures.hpp"
+#include "planners/simulation/luck.hpp"
+#include "planners/uct/tree.hpp"
+#include "planners/uct/uct_options.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace rddlc::planners {
+
+class Uct : public Planner {
+  public:
+    Uct(const Surroundings& surroundings, const UctOptions& options);
+    void decide(const Situation& situation, std::byte* action, Thoughts* thoughts) override;
+
+  private:
+    // A trial on its way down.
+    struct Trial {
+        NodeId node;
+        bool is_down;  // it has reached its leaf
+        struct Hop {
+            NodeId node;
+            EdgeId edge;
+            double reward;
+        };
+        std::vector<Hop> hops;
+    };
+
+    void choose_policy(const Situation& situation, Luck& luck, Meter& meter);
+    bool open_root(const Situation& situation, Luck& luck, Meter& meter);
+    // The trials of one round; false where time was up, and nothing has changed but counts.
+    bool run_trials(const Situation& situation, Luck& luck, Meter& meter);
+    bool step_trials(Luck& luck, std::int64_t depth, Meter& meter);
+    void follow(std::size_t k, Luck& luck, std::int64_t depth);
+    EdgeId choose_edge(const Node& node, Luck& luck);
+    // Its actions, where environment `place` of the batch stands.
+    void add_edges(NodeId node, const rddl_batch* batch, std::int64_t place);
+    bool value_new_nodes(const Situation& situation, Luck& luck, Meter& meter, std::size_t draws);
+    void take_values(std::size_t first, std::size_t count);
+    bool stays_unchanged(const Situation& situation, std::size_t n, Luck& luck, Meter& meter);
+    bool is_unchanged(NodeId id, std::size_t n, std::size_t k) const;
+    void back_up(const Trial& trial);
+    void note_return(double value);
+    double value_of(std::size_t k) const;
+    EdgeId best_edge() const;
+    void note_thoughts(Thoughts& thoughts, EdgeId chosen, const Meter& meter);
+
+    const rddl_simulator& simulator_;
+    UctOptions options_;
+    std::size_t state_size_, action_size_;
+    FiniteActions actions_;
+    Futures trees_;  // trials
+    Continuations continuations_;
+    std::vector<BasePolicy> policies_;  // that may play on
+    std::size_t policy_ = 0;            // that does
+    Tree tree_;
+    NodeId root_ = 0;
+    std::int64_t depth_ = 0;  // of the search: steps that are looked ahead
+    std::int64_t step_ = 0;   // of the episode
+    std::vector<Trial> trials_;
+    std::vector<std::uint64_t> lucks_;
+    std::vector<std::byte> records_, states_;
+    std::vector<std::uint8_t> legal_;
+    std::vector<NodeId> new_nodes_;
+    // What is asked of continuations, and of which node and edge.
+    struct Asked {
+        NodeId node;
+        EdgeId edge;
+        std::uint64_t luck;
+    };
+    std::vector<Asked> asked_;
+    std::vector<Start> starts_;
+    // Edges of new nodes whose action has changed nothing, as a count for each node.
+    std::vector<std::uint32_t> unchanged_;
+    std::vector<double> unchanged_rewards_;
+    double least_ = 0, most_ = 0;  // returns that were seen
+    std::int64_t leaf_depth_ = 0;  // steps by which a new state is valued, at most
+};
+
+}  // namespace rddlc::planners

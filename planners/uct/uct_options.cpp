@@ -1,0 +1,57 @@
+#include "planners/uct/uct_options.hpp"
+
+namespace rddlc::planners {
+
+namespace {
+
+using solvers::choice_option;
+using solvers::number_option;
+
+solvers::OptionTable<UctOptions> make_uct_table() {
+    solvers::OptionTable<UctOptions> table = common_options<UctOptions>(
+        "Trials of a decision", "Steps that are looked ahead (40, or to the end of the episode)",
+        "That plays on from the leaves of the tree (no-op or random, whichever has the greater "
+        "return)");
+    solvers::OptionTable<UctOptions> own = {
+        number_option<UctOptions, int>(
+            {"lanes", "lanes", "N", "Trials side by side (32)"},
+            [](auto& o) -> auto& { return o.lanes; }, 1, 1 << 16),
+        number_option<UctOptions, int>(
+            {"actions", "actions", "N", "A problem with more actions than this is refused (4096)"},
+            [](auto& o) -> auto& { return o.actions; }, 2, 1 << 20),
+        number_option<UctOptions, double>(
+            {"exploration", "exploration", "C",
+             "How much actions count that were tried less, in ranges of the returns (0.5)"},
+            [](auto& o) -> auto& { return o.exploration; }, 0.0, 1e6),
+        number_option<UctOptions, double>(
+            {"outcomes", "outcomes", "K",
+             "Of an action that was taken n times at most K * sqrt(n) outcomes are distinguished; "
+             "0: "
+             "all (4)"},
+            [](auto& o) -> auto& { return o.outcomes; }, 0.0, 1e9),
+        choice_option<UctOptions, Backup>(
+            {"backup", "backup", "HOW",
+             "A state is worth its best action by the outcomes that were seen (max, the default), "
+             "or the mean of its trials (mean)"},
+            [](auto& o) -> auto& { return o.backup; },
+            {{"max", Backup::Max}, {"mean", Backup::Mean}}),
+        choice_option<UctOptions, Initial>(
+            {"initial", "initial", "HOW",
+             "A new state is valued by each of its actions, and the policy after it (lookahead, "
+             "the default), or by the policy alone (rollout)"},
+            [](auto& o) -> auto& { return o.initial; },
+            {{"lookahead", Initial::Lookahead}, {"rollout", Initial::Rollout}}),
+    };
+    table.insert(table.end(), std::make_move_iterator(own.begin()),
+                 std::make_move_iterator(own.end()));
+    return table;
+}
+
+}  // namespace
+
+const solvers::OptionTable<UctOptions>& uct_option_table() {
+    static const solvers::OptionTable<UctOptions> table = make_uct_table();
+    return table;
+}
+
+}  // namespace rddlc::planners

@@ -1,0 +1,100 @@
+"""Planners: they act well at once, by searching before each action (docs/planning.md).
+
+    env = rddlc.make("MountainCar_ippc2023", "1")
+    planner = rddlc.plan.CEM(env, seconds=0.1)
+    observation, info = env.reset(seed=0)
+    observation, reward, terminated, truncated, info = env.step(planner.act(observation))
+"""
+
+from __future__ import annotations
+
+import os
+from typing import Any, ClassVar
+
+from . import _native
+from .acting import actions_in, environment_in, problem_in
+from .environment import RDDLEnv
+from .errors import ArgumentError
+from .evaluation import Evaluation, evaluation_of
+from .learners import Solvable, Wrapped
+from .problems import Problem
+
+__all__ = ["CEM", "Planner", "Rollout", "UCT"]
+
+
+class Planner:
+    """What all planners have in common. Options are keywords; True and False are yes and no."""
+
+    name: ClassVar[str]
+
+    def __init__(self, env_or_problem: Solvable, **options: Any) -> None:
+        self._env = environment_in(env_or_problem)
+        self.problem: Problem = problem_in(env_or_problem)
+        self.text = ",".join([f"plan:{self.name}", *map(_option, options.items())])
+        """As `rddl evaluate --policy` takes it."""
+        self._native = _native.planner(self.problem.simulator, self.text)
+        self._acted_in: Any = None
+
+    def act(self, observation: Any = None, env: Wrapped | None = None) -> Any:
+        """Returns the action, as env.step takes it, for the present state of the planner's environment,
+        or of another one, also within wrappers. A planner uses the state, not the observation. Call it
+        once before each step."""
+        acting = self._env if env is None else environment_in(env)
+        if acting is None:
+            raise ArgumentError("act: the planner was made of a problem: say in which env it acts")
+        batch = acting._batch
+        self._native.plan(batch, self._acted_in is not batch)
+        self._acted_in = batch
+        return actions_in(acting, batch.actions, is_single=isinstance(acting, RDDLEnv))
+
+    def evaluate(
+        self,
+        episodes: int = 10,
+        *,
+        seed: int = 0,
+        threads: int = 0,
+        horizon: int | None = None,
+    ) -> Evaluation:
+        """The returns of the planner in the episodes of this seed; as `rddl evaluate --seed`.
+        horizon: steps; None: the instance's; 0: no horizon. threads: 0: one for each core."""
+        return evaluation_of(self._native, episodes, seed, threads, horizon)
+
+    def __repr__(self) -> str:
+        return f"<{self.text} of {self.problem.model.instance}>"
+
+
+def _option(item: tuple[str, Any]) -> str:
+    keyword, value = item
+    if isinstance(value, bool):
+        value = "yes" if value else "no"
+    word = os.fsdecode(value) if isinstance(value, os.PathLike) else str(value)
+    if "," in word:
+        raise ArgumentError(f"{keyword}: '{word}' has a comma in it, which separates options")
+    return f"{keyword}={word}"
+
+
+class CEM(Planner):
+    """The best of many courses of actions, sampled again and again, for any kind of actions:
+
+    """
+
+    __doc__ = (__doc__ or "") + _native.planner_options("cem")
+    name = "cem"
+
+
+class Rollout(Planner):
+    """Each action of a policy improved: others are tried, and the policy plays on.
+
+    """
+
+    __doc__ = (__doc__ or "") + _native.planner_options("rollout")
+    name = "rollout"
+
+
+class UCT(Planner):
+    """A tree of actions and of what they lead to, built by trials, for finitely many actions.
+
+    """
+
+    __doc__ = (__doc__ or "") + _native.planner_options("uct")
+    name = "uct"

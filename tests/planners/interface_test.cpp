@@ -1,0 +1,159 @@
+// What all planners have in common: names, options, budgets, luck of their own.
+#include "planning.hpp"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <iterator>
+
+namespace rddlc::planners {
+namespace {
+
+std::string refusal(const std::string& planner) {
+    try {
+        require_planner(planner);
+    } catch (const Failure& failure) {
+        EXPECT_EQ(failure.status, usage_error);
+        return failure.what();
+    }
+    return "";
+}
+
+TEST(PlannerNames, AreReadWithTheirOptions) {
+    EXPECT_EQ(refusal("plan:cem"), "");
+    EXPECT_EQ(refusal("plan:cem,steps=10,horizon=3,weights=mppi"), "");
+    EXPECT_EQ(refusal("plan:cme"), "there is no planner 'cme'; did you mean 'cem'?");
+    EXPECT_EQ(refusal("plan:cem,step=3"),
+              "plan:cem: there is no option 'step'; did you mean 'steps'?");
+    EXPECT_EQ(refusal("plan:cem,steps"),
+              "plan:cem: 'steps' is no option: options have the form key=value");
+    EXPECT_EQ(refusal("plan:cem,horizon=0"),
+              "plan:cem: horizon: '0' is not an int from 1 to 100000");
+    EXPECT_EQ(refusal("plan:cem,weights=all"),
+              "plan:cem: weights: 'all' is not one of elites, mppi");
+    EXPECT_EQ(refusal("plan:cem,policy=plan:cem"),
+              "plan:cem: policy: a planner cannot follow another one");
+    EXPECT_EQ(refusal("plan:rollout"),
+              "plan:rollout improves a policy: say which one, as in plan:rollout,policy=random");
+    EXPECT_NE(refusal("plan:"), "");
+}
+
+// The sections of docs/planning.md.
+struct Page {
+    std::string text;
+
+    Page() {
+        std::ifstream file(PLANNING_PAGE);
+        text.assign(std::istreambuf_iterator<char>(file), {});
+    }
+    bool contains(const std::string& planner, const std::string& option) const {
+        const std::size_t begin = text.find("\n## plan:" + planner);
+        if (begin == std::string::npos) return false;
+        const std::size_t end = text.find("\n## ", begin + 1);
+        return text.substr(begin, end - begin).find("`" + option + "=") != std::string::npos;
+    }
+};
+
+// What people see of an option is there, on the page of the documentation, too.
+TEST(PlannerNames, TablesAreComplete) {
+    const Page page;
+    for (const PlannerText& planner : planner_texts()) {
+        EXPECT_FALSE(planner.summary.empty());
+        for (const solvers::OptionText& option : planner.options) {
+            EXPECT_FALSE(option.help.empty()) << option.name;
+            EXPECT_EQ(option.name, option.keyword);
+            EXPECT_TRUE(page.contains(planner.name, option.name))
+                << planner.name << ": " << option.name;
+        }
+    }
+}
+
+TEST(PlannerLuck, IsNotThatOfTheEnvironment) {
+    // Who knew the draws would be right 40 times of 40. 1200 guesses at random deviate by 0.014.
+    for (const char* const planner :
+         {"plan:cem,steps=2000,horizon=2", "plan:rollout,policy=noop,steps=2000",
+          "plan:uct,steps=2000"}) {
+        SCOPED_TRACE(planner);
+        for (const std::uint64_t seed : {0, 7}) {
+            const Played course = run(coin(), planner, 30, 1, seed);
+            EXPECT_NEAR(course.mean() / 40, 0.5, 0.06);
+        }
+    }
+}
+
+bool is_uct(const std::string& planner) {
+    return planner.starts_with("plan:uct");
+}
+bool is_finite(const rddl_simulator& simulator) {
+    return &simulator == &ladder() || &simulator == &network();
+}
+
+TEST(PlannerBudgets, SameStepsGiveTheSameActionsOnAnyNumberOfThreads) {
+    for (const rddl_simulator* simulator : {&ladder(), &network(), &reservoir(), &target()})
+        for (const char* const planner :
+             {"plan:cem,steps=3000", "plan:cem,iterations=2,population=16",
+              "plan:rollout,policy=random,steps=3000",
+              "plan:rollout,policy=random,iterations=2,lanes=16", "plan:uct,steps=3000",
+              "plan:uct,iterations=100,lanes=8"}) {
+            if (is_uct(planner) && !is_finite(*simulator)) continue;
+            SCOPED_TRACE(simulator->problem->domain + std::string(" ") + planner);
+            const Played one = run(*simulator, planner, 4, 1);
+            const Played two = run(*simulator, planner, 4, 2);
+            EXPECT_EQ(one.returns(), two.returns());
+            ASSERT_EQ(one.thoughts.size(), two.thoughts.size());
+            for (const auto& [place, thoughts] : one.thoughts) {
+                const Thoughts& others = two.thoughts.at(place);
+                ASSERT_EQ(thoughts.candidates.size(), others.candidates.size());
+                EXPECT_EQ(thoughts.steps, others.steps);
+                for (std::size_t c = 0; c < thoughts.candidates.size(); ++c) {
+                    EXPECT_EQ(thoughts.candidates[c].action, others.candidates[c].action);
+                    EXPECT_EQ(thoughts.candidates[c].value, others.candidates[c].value);
+                }
+            }
+        }
+}
+
+// Whatever the budget: an action is there, it is legal, and steps are kept to.
+TEST(PlannerBudgets, AreNeverTooShort) {
+    for (const rddl_simulator* simulator : {&ladder(), &network(), &reservoir(), &car()})
+        for (const std::string name : {"plan:cem", "plan:rollout,policy=random", "plan:uct"})
+            for (const std::string budget :
+                 {"steps=1", "steps=7", "steps=100", "seconds=0", "iterations=1,steps=50"}) {
+                SCOPED_TRACE(simulator->problem->domain + (" " + name) + " " + budget);
+                if (is_uct(name) && !is_finite(*simulator)) continue;
+                const Played course = run(*simulator, name + "," + budget);
+                EXPECT_EQ(course.summary.illegal_actions, 0);
+                EXPECT_EQ(course.summary.episodes, 1);
+                if (!budget.starts_with("steps=")) continue;
+                const std::int64_t most = std::max<std::int64_t>(std::stoll(budget.substr(6)), 2);
+                for (const auto& [place, thoughts] : course.thoughts)
+                    EXPECT_LE(thoughts.steps, most);
+            }
+}
+
+TEST(PlannerBudgets, SecondsEndADecision) {
+    const auto begin = std::chrono::steady_clock::now();
+    run(reservoir(), "plan:cem,seconds=0.01");
+    const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
+    const auto steps = static_cast<double>(reservoir().problem->horizon);
+    EXPECT_GE(took.count(), 0.005 * steps);
+    EXPECT_LT(took.count(), 1 * steps);  // not what hangs, but a busy machine
+}
+
+TEST(PlannerSight, OfHiddenStatesHasToBeAllowed) {
+    try {
+        planner_policy(maze(), "plan:cem", settings_of(maze()));
+        FAIL() << "it took a problem that is observed in part";
+    } catch (const Failure& failure) {
+        EXPECT_EQ(std::string(failure.what()),
+                  "plan:cem needs the state, which t_maze_1 (t_maze) hides from policies");
+        EXPECT_EQ(failure.hint, "let it look at the state with --cheat or plan:cem,cheat=yes");
+    }
+    PolicySettings settings = settings_of(maze());
+    settings.cheat = true;
+    EXPECT_EQ(planner_policy(maze(), "plan:cem", settings).name, "plan:cem");
+    EXPECT_EQ(run(maze(), "plan:cem,cheat=yes,steps=10").summary.episodes, 1);
+}
+
+}  // namespace
+}  // namespace rddlc::planners

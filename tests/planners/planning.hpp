@@ -1,0 +1,100 @@
+// Problems that planners are tested with, and what they do there.
+#pragma once
+
+#include "planner_coin.h"
+#include "planner_ladder.h"
+#include "planner_mountain_car.h"
+#include "planner_network.h"
+#include "planner_reservoir.h"
+#include "planner_t_maze.h"
+#include "planner_target.h"
+#include "planners/planner/planner_policy.hpp"
+#include "solvers/evaluation/episodes.hpp"
+#include "solvers/evaluation/summary.hpp"
+#include "support/failure.hpp"
+
+#include <algorithm>
+#include <map>
+#include <mutex>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace rddlc::planners {
+
+inline const rddl_simulator& target() {
+    return *rddl_simulator_target_target_1();
+}
+inline const rddl_simulator& coin() {
+    return *rddl_simulator_coin_coin_1();
+}
+inline const rddl_simulator& ladder() {
+    return *rddl_simulator_ladder_ladder_1();
+}
+inline const rddl_simulator& car() {
+    return *rddl_simulator_mountain_car_mountain_car_1();
+}
+inline const rddl_simulator& reservoir() {
+    return *rddl_simulator_reservoir_reservoir_1();
+}
+inline const rddl_simulator& network() {
+    return *rddl_simulator_network_network_1();
+}
+inline const rddl_simulator& maze() {
+    return *rddl_simulator_t_maze_t_maze_1();
+}
+
+inline PolicySettings settings_of(const rddl_simulator& simulator) {
+    PolicySettings settings;
+    settings.named = [&simulator](const std::string& name) {
+        if (name == "noop") return solvers::noop_policy(simulator);
+        if (name == "random") return solvers::random_policy(simulator, 0);
+        throw Failure("there is no policy '" + name + "'");
+    };
+    return settings;
+}
+
+// Of episodes 0, 1, ... of the seed.
+struct Played {
+    std::vector<solvers::Episode> episodes;
+    solvers::Summary summary;
+    std::map<std::pair<std::int64_t, std::int64_t>, Thoughts> thoughts;  // by episode and step
+
+    double mean() const { return summary.undiscounted_return.mean; }
+    const Thoughts& thought(std::int64_t episode, std::int64_t step) const {
+        return thoughts.at({episode, step});
+    }
+    std::vector<double> returns() const {
+        std::vector<double> all;
+        for (const solvers::Episode& episode : episodes) all.push_back(episode.undiscounted_return);
+        return all;
+    }
+};
+
+inline Played run(const rddl_simulator& simulator, const std::string& planner,
+                  std::int64_t episodes = 1, int threads = 1, std::uint64_t seed = 0) {
+    Played course;
+    std::mutex mutex;
+    PolicySettings settings = settings_of(simulator);
+    settings.seed = seed;
+    settings.explain = [&](const Thoughts& thoughts) {
+        const std::scoped_lock lock(mutex);
+        course.thoughts.insert_or_assign({thoughts.episode, thoughts.step}, thoughts);
+    };
+    solvers::EpisodeOptions options;
+    options.episodes = episodes;
+    options.threads = threads;
+    options.seed = seed;
+    options.preconditions = solvers::Preconditions::Warn;  // so that they are counted
+    const solvers::Policy policy = planner_policy(simulator, planner, settings);
+    solvers::Rollouts rollouts = solvers::run_episodes(simulator, policy, options, {});
+    course.summary = solvers::summary_of(rollouts);
+    course.episodes = std::move(rollouts.episodes);
+    return course;
+}
+
+inline const std::byte* chosen_action(const Thoughts& thoughts) {
+    return thoughts.candidates.at(thoughts.chosen).action.data();
+}
+
+}  // namespace rddlc::planners

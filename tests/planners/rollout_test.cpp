@@ -1,0 +1,38 @@
+#include "planning.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace rddlc::planners {
+namespace {
+
+// Of no-op, which stays: to stay is worth 1 + 1 + 1 + 1, to climb (2 + 2 + 2)/2, to leap 8/4.
+TEST(Rollouts, ValueActionsByThePolicyThatPlaysOn) {
+    const Played course = run(ladder(), "plan:rollout,policy=noop,iterations=200");
+    const Thoughts& thoughts = course.thought(0, 0);
+    ASSERT_EQ(thoughts.candidates.size(), 3u);
+    EXPECT_EQ(thoughts.candidates[0].name, "policy");
+    EXPECT_DOUBLE_EQ(thoughts.candidates[0].value, 4);
+    EXPECT_NEAR(thoughts.candidates[1].value, 3, 0.25);
+    EXPECT_NEAR(thoughts.candidates[2].value, 2, 0.25);
+    EXPECT_EQ(thoughts.chosen, 0u);
+    EXPECT_EQ(thoughts.depth, 4);
+}
+
+// No-op has a reward of 1 in each of 4 steps; a step of improvement is better by what the last
+// steps gain.
+TEST(Rollouts, ImproveAPolicy) {
+    const double noop = run(reservoir(), "plan:rollout,policy=noop,steps=1", 10).mean();
+    const double better = run(reservoir(), "plan:rollout,policy=noop,steps=20000", 10).mean();
+    EXPECT_GT(better, noop + 0.1 * std::abs(noop));
+}
+
+// A policy that is the best there is is left alone, since nothing is surely better.
+TEST(Rollouts, KeepThePolicyInDoubt) {
+    const Played course = run(coin(), "plan:rollout,policy=noop,steps=2000,confidence=100", 3);
+    for (const auto& [place, thoughts] : course.thoughts) EXPECT_EQ(thoughts.chosen, 0u);
+}
+
+}  // namespace
+}  // namespace rddlc::planners

@@ -1,0 +1,75 @@
+#include "learning/planned_policy.hpp"
+
+#include "support/json_text.hpp"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+
+namespace rddlc::workbench {
+
+std::string planner_help() {
+    std::string text =
+        "Planners are policies that search before each action: plan:NAME[,key=value...], such as\n"
+        "plan:cem,seconds=0.1 (docs/planning.md).\n";
+    for (const planners::PlannerText& planner : planners::planner_texts()) {
+        text += fmt::format("\nplan:{}: {}\n", planner.name, planner.summary);
+        for (const solvers::OptionText& option : planner.options)
+            text += fmt::format("  {:<24} {}\n", option.name + "=" + option.value, option.help);
+    }
+    return text;
+}
+
+Explanations::Explanations(PlannerSettings& settings, const rddl_problem& problem,
+                           const UsedFiles& used)
+    : problem_(problem), actions_(problem, RDDL_ACTION) {
+    if (settings.explanations.empty()) return;
+    file_.emplace(settings.explanations, used);
+    settings.explain = [this](const planners::Thoughts& thoughts) {
+        take(thoughts);
+    };
+}
+
+void Explanations::take(const planners::Thoughts& thoughts) {
+    std::string line = line_of(thoughts);
+    const std::scoped_lock lock(mutex_);
+    lines_.insert_or_assign({thoughts.episode, thoughts.step}, std::move(line));
+}
+
+std::string Explanations::line_of(const planners::Thoughts& thoughts) const {
+    const auto number = [](double value) {
+        return json_line(nlohmann::ordered_json(json_number(value)));
+    };
+    std::string line =
+        fmt::format(R"("episode":{},"step":{},"depth":{},"iterations":{},"steps":{},"chosen":{},)",
+                    thoughts.episode, thoughts.step, thoughts.depth, thoughts.iterations,
+                    thoughts.steps, thoughts.chosen);
+    if (!thoughts.note.empty())
+        line += fmt::format(R"("note":{},)", json_line(nlohmann::ordered_json(thoughts.note)));
+    line += R"("candidates":[)";
+    for (const planners::Thoughts::Candidate& candidate : thoughts.candidates) {
+        if (&candidate != thoughts.candidates.data()) line += ',';
+        line += fmt::format(R"({{"name":"{}","value":{},"error":{},"trials":{},"action":)",
+                            candidate.name, number(candidate.value), number(candidate.error),
+                            candidate.trials);
+        actions_.write_changes(line, candidate.action.data(),
+                               static_cast<const std::byte*>(problem_.default_action));
+        line += '}';
+    }
+    return line + "]}\n";
+}
+
+void Explanations::write(const std::string& policy) {
+    if (!file_) return;
+    const std::string name = json_line(nlohmann::ordered_json(policy));
+    for (const auto& [place, line] : lines_)
+        file_->write(fmt::format(R"({{"policy":{},{})", name, line));
+    lines_.clear();
+}
+
+void Explanations::finish() {
+    if (file_) file_->finish();
+}
+
+}  // namespace rddlc::workbench
