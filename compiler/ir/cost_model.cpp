@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstddef>
 #include <map>
+#include <optional>
 #include <set>
 #include <utility>
 #include <vector>
@@ -83,7 +84,10 @@ class StepCost {
         for (const Statement& statement : block)
             match(statement.form, [&](const auto& form) { add(form, place); });
     }
-    void add(const Let& let, Place place) { levels_of_local_[let.local] = add(let.value, place); }
+    void add(const Let& let, Place place) {
+        add(let.value, place);
+        levels_of_local_[let.local] = levels_of(let.value, place);
+    }
     void add(const Store& store, Place place) {
         add(store.value, place);
         for (const NodeId index : store.indices) add(index, place);
@@ -104,37 +108,48 @@ class StepCost {
         pay(1 + elements, place);
     }
 
-    Levels add(NodeId id, Place place) {
+    // Pays for the node where it is computed: in the innermost of the loops on which it depends.
+    void add(NodeId id, Place place) {
+        const Node& node = program_[id];
+        const Place where = at_level(place, levels_of(id, place));
+        if (!paid_.insert({id, where}).second) return;
+        pay(own_cost(program_, node), where);
+        const auto binder = bound_by(node);
+        const std::vector<NodeId> operands = operands_of(node);
+        for (std::size_t i = 0; i < operands.size(); ++i) {
+            const bool is_body = binder && i == 0;
+            add(operands[i], is_body ? inside(where, binder->variable, binder->times) : where);
+        }
+    }
+
+    struct Binder {
+        VariableId variable;
+        double times;
+    };
+    std::optional<Binder> bound_by(const Node& node) const {
+        if (const auto* reduce = std::get_if<Reduce>(&node.form))
+            return Binder{reduce->variable, repetitions(program_, *reduce)};
+        if (const auto* discrete = std::get_if<DiscreteOver>(&node.form))
+            return Binder{discrete->variable, repetitions(program_, *discrete)};
+        return std::nullopt;
+    }
+
+    Levels levels_of(NodeId id, Place place) {
         if (const auto known = levels_.find({id, place}); known != levels_.end())
             return known->second;
         const Node& node = program_[id];
-        Levels levels = match(
-            node.form, [&](const Reduce& reduce) { return add(reduce, place); },
-            [&](const DiscreteOver& discrete) {
-                return add_body(discrete.variable, discrete.weight, repetitions(program_, discrete),
-                                place);
-            },
-            [&](const auto&) { return add_operands(node, place); });
-        levels |= own_levels(node, place);
-        const Place where = at_level(place, levels);
-        if (paid_.insert({id, where}).second) pay(own_cost(program_, node), where);
+        Levels levels = own_levels(node, place);
+        const auto binder = bound_by(node);
+        const std::vector<NodeId> operands = operands_of(node);
+        for (std::size_t i = 0; i < operands.size(); ++i) {
+            if (!binder || i > 0) {
+                levels |= levels_of(operands[i], place);
+                continue;
+            }
+            const Place inner = inside(place, binder->variable, binder->times);
+            levels |= levels_of(operands[i], inner) & ~bit_of(arounds_[inner].level);
+        }
         return levels_[{id, place}] = levels;
-    }
-    Levels add(const Reduce& reduce, Place place) {
-        Levels levels =
-            add_body(reduce.variable, reduce.body, repetitions(program_, reduce), place);
-        if (reduce.bounds)
-            levels |= add(reduce.bounds->begin, place) | add(reduce.bounds->end, place);
-        return levels;
-    }
-    Levels add_body(VariableId variable, NodeId body, double times, Place place) {
-        const Place inner = inside(place, variable, times);
-        return add(body, inner) & ~bit_of(arounds_[inner].level);
-    }
-    Levels add_operands(const Node& node, Place place) {
-        Levels levels = 0;
-        for (const NodeId operand : operands_of(node)) levels |= add(operand, place);
-        return levels;
     }
 
     Levels own_levels(const Node& node, Place place) const {

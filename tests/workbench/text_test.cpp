@@ -62,6 +62,8 @@ TEST(Text, GroupsDigits) {
 TEST(Text, ShowsRatesAndDurations) {
     EXPECT_EQ(rate_text(812), "812");
     EXPECT_EQ(rate_text(5.126e6), "5.13 M");
+    EXPECT_EQ(rate_text(999950), "1 M");
+    EXPECT_EQ(seconds_text(999.9e-6), "1 ms");
     EXPECT_EQ(seconds_text(0.0021), "2.1 ms");
     EXPECT_EQ(duration_text(200), "3 min 20 s");
 }

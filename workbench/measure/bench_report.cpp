@@ -15,8 +15,8 @@ namespace rddlc::workbench {
 namespace {
 
 std::string bytes_text(double bytes) {
-    if (bytes >= 1e6) return fmt::format("{:.3g} MB", bytes / 1e6);
-    if (bytes >= 1e3) return fmt::format("{:.3g} kB", bytes / 1e3);
+    if (bytes >= 999.5e3) return fmt::format("{:.3g} MB", bytes / 1e6);
+    if (bytes >= 999.5) return fmt::format("{:.3g} kB", bytes / 1e3);
     return fmt::format("{:.3g} bytes", bytes);
 }
 
