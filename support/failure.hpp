@@ -4,7 +4,6 @@
 
 #include <fmt/format.h>
 
-#include <source_location>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -29,11 +28,12 @@ struct Failure : std::runtime_error {
     ExitStatus status;
 };
 
-// A mistake of our own: what was met, and where it was noticed. Programs end with status 70.
-[[noreturn]] inline void own_mistake(std::string_view what,
-                                     std::source_location where = std::source_location::current()) {
-    throw std::logic_error(fmt::format("{} ({}:{}, {})", what, where.file_name(), where.line(),
-                                       where.function_name()));
+// A mistake of our own: what was met, and where it was noticed. Programs end with status 70. The
+// place is asked of the compiler, since clang++ 14 has no std::source_location.
+[[noreturn]] inline void own_mistake(std::string_view what, const char* file = __builtin_FILE(),
+                                     int line = __builtin_LINE(),
+                                     const char* function = __builtin_FUNCTION()) {
+    throw std::logic_error(fmt::format("{} ({}:{}, {})", what, file, line, function));
 }
 
 // The diagnostics are printed already; nothing is left to say.
