@@ -20,7 +20,7 @@ struct Box {
     double width = 0, x = 0, y = 0;  // of the middle
 };
 
-constexpr double height = 28, row = 46, gap = 70, margin = 16, letter = 7.6;
+constexpr double height = 28, row_height = 46, gap = 70, margin = 16, letter = 7.6;
 
 std::string escaped(const std::string& text) {
     std::string result;
@@ -88,7 +88,7 @@ Size place(std::vector<Box>& boxes) {
         for (Box* const box : own) {
             box->x = x + widest / 2;
             box->y = std::max(box->y, next);
-            next = box->y + row;
+            next = box->y + row_height;
             bottom = std::max(bottom, box->y + height / 2);
         }
         x += widest + gap;

@@ -186,10 +186,11 @@ Genome read_skdecide_genome(std::string_view text) {
     const std::int64_t nodes = std::int64_t{sizes[2]} * sizes[3];
     if (inputs + nodes > most_numbers || outputs > most_numbers)
         throw Failure("its sizes are too large");
-    constexpr int genes_of_node = 1 + arguments_of_delayed;
-    if (static_cast<std::int64_t>(genes.size()) != nodes * genes_of_node + outputs)
+    constexpr int genes_of_delayed = 1 + arguments_of_delayed;
+    if (static_cast<std::int64_t>(genes.size()) != nodes * genes_of_delayed + outputs)
         throw Failure(fmt::format("it has {} genes, and {} nodes and {} outputs need {}",
-                                  genes.size(), nodes, outputs, nodes * genes_of_node + outputs));
+                                  genes.size(), nodes, outputs,
+                                  nodes * genes_of_delayed + outputs));
     Genome genome;
     genome.inputs = static_cast<int>(inputs);
     genome.delayed = true;

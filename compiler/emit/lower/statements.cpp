@@ -149,7 +149,7 @@ void FunctionBody::over_several_objects(const ir::Loop& loop) {
 
     // Whether the context has a name is known when the body is.
     expressions_.uses().context = false;
-    tree::Block body = inner(1, [&] { block(*nest.body); });
+    tree::Block body = inner(1, [&, innermost = nest.body] { block(*innermost); });
     const bool has_context = std::exchange(expressions_.uses().context, true);
     tree::Expressions parameters = {
         has_context ? tree::Expression{tree::Declared{"auto&", context}} : tree::word("auto&"),
