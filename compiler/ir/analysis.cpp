@@ -20,7 +20,10 @@ class Collector {
         : program_(program), known_(known), tables_(tables) {}
 
     Facts facts_of(const Node& node) {
-        for (NodeId operand : operands_of(node)) add(known_[operand.index]);
+        const std::vector<NodeId> operands = operands_of(node);
+        for (NodeId operand : operands) add(known_[operand.index]);
+        if (const auto variable = bound_variable(node))
+            bind(*variable, operands.front(), repetitions(program_, node));
         facts_.cost += own_cost(program_, node);
         match(node.form, [&](const auto& form) { describe(node.type, form); });
         facts_.finite = node.type != Scalar::Real || (facts_.range && is_finite(*facts_.range)) ||
@@ -151,7 +154,6 @@ class Collector {
 
     void describe(Scalar, const Reduce& reduce) {
         const std::int64_t size = program_[reduce.variable].size;
-        bind(reduce.variable, reduce.body, repetitions(program_, reduce));
         if (reduce.op == Reduction::ArgMin || reduce.op == Reduction::ArgMax)
             facts_.range = Range{0, static_cast<double>(size - 1)};
         if (reduce.op == Reduction::Sum && program_[reduce.body].type == Scalar::Int)
@@ -192,7 +194,6 @@ class Collector {
     }
 
     void describe(Scalar, const DiscreteOver& discrete) {
-        bind(discrete.variable, discrete.weight, repetitions(program_, discrete));
         facts_.range = Range{0, static_cast<double>(program_[discrete.variable].size - 1)};
         draw(true);
     }

@@ -8,7 +8,6 @@
 #include <cmath>
 #include <cstddef>
 #include <map>
-#include <optional>
 #include <set>
 #include <utility>
 #include <vector>
@@ -27,23 +26,16 @@ double length_of(const Program& program, const Bounds& bounds, double size) {
     return size / static_cast<double>(std::max<std::int64_t>(rows, 1));
 }
 
-// The cost of a step in which every node is computed in the outermost loop where that is possible,
-// and there once.
-class StepCost {
+// The cost of a definition or computation whose nodes are each computed once, in the outermost loop
+// where that is possible.
+class BlockCost {
   public:
-    explicit StepCost(const Program& program) : program_(program) {}
-
-    double of_definition(const Block& body) {
-        begin(body);
+    BlockCost(const Program& program, const Block& body) : program_(program) {
+        collect_stores(body, 0);
         add(body, outside);
-        return total_;
     }
-    double of_computation(const Computation& computation) {
-        begin(computation.body);
-        add(computation.body, outside);
-        add(computation.value, outside);
-        return total_;
-    }
+    void add_value(NodeId id) { add(id, outside); }
+    double total() const { return total_; }
 
   private:
     // A loop or a reduction around what is evaluated. Its level is the number of those around it.
@@ -57,17 +49,6 @@ class StepCost {
     static constexpr Place outside = 0;
     // The levels of the loops that a value depends on, as bits.
     using Levels = std::uint64_t;
-
-    void begin(const Block& body) {
-        arounds_ = {{outside, {}, 0, 1}};
-        inner_.clear();
-        levels_.clear();
-        paid_.clear();
-        levels_of_local_.clear();
-        total_ = 0;
-        stored_.clear();
-        collect_stores(body, 0);
-    }
 
     // A table that is filled in loops is read inside of them, if it is read there.
     void collect_stores(const Block& block, std::size_t level) {
@@ -114,24 +95,15 @@ class StepCost {
         const Place where = at_level(place, levels_of(id, place));
         if (!paid_.insert({id, where}).second) return;
         pay(own_cost(program_, node), where);
-        const auto binder = bound_by(node);
         const std::vector<NodeId> operands = operands_of(node);
-        for (std::size_t i = 0; i < operands.size(); ++i) {
-            const bool is_body = binder && i == 0;
-            add(operands[i], is_body ? inside(where, binder->variable, binder->times) : where);
-        }
+        for (std::size_t i = 0; i < operands.size(); ++i) add(operands[i], around(node, i, where));
     }
 
-    struct Binder {
-        VariableId variable;
-        double times;
-    };
-    std::optional<Binder> bound_by(const Node& node) const {
-        if (const auto* reduce = std::get_if<Reduce>(&node.form))
-            return Binder{reduce->variable, repetitions(program_, *reduce)};
-        if (const auto* discrete = std::get_if<DiscreteOver>(&node.form))
-            return Binder{discrete->variable, repetitions(program_, *discrete)};
-        return std::nullopt;
+    // Where an operand stands of a node at this place: the body of a binder is its first one.
+    Place around(const Node& node, std::size_t operand, Place place) {
+        const auto variable = bound_variable(node);
+        if (!variable || operand > 0) return place;
+        return inside(place, *variable, repetitions(program_, node));
     }
 
     Levels levels_of(NodeId id, Place place) {
@@ -139,15 +111,11 @@ class StepCost {
             return known->second;
         const Node& node = program_[id];
         Levels levels = own_levels(node, place);
-        const auto binder = bound_by(node);
         const std::vector<NodeId> operands = operands_of(node);
         for (std::size_t i = 0; i < operands.size(); ++i) {
-            if (!binder || i > 0) {
-                levels |= levels_of(operands[i], place);
-                continue;
-            }
-            const Place inner = inside(place, binder->variable, binder->times);
-            levels |= levels_of(operands[i], inner) & ~bit_of(arounds_[inner].level);
+            const Place where = around(node, i, place);
+            const Levels own = where == place ? 0 : bit_of(arounds_[where].level);
+            levels |= levels_of(operands[i], where) & ~own;
         }
         return levels_[{id, place}] = levels;
     }
@@ -190,7 +158,7 @@ class StepCost {
     void pay(double cost, Place place) { total_ += cost * arounds_[place].evaluations; }
 
     const Program& program_;
-    std::vector<Around> arounds_;
+    std::vector<Around> arounds_ = {{outside, {}, 0, 1}};
     std::map<std::pair<Place, VariableId>, Place> inner_;
     std::map<std::pair<NodeId, Place>, Levels> levels_;
     std::set<std::pair<NodeId, Place>> paid_;
@@ -220,27 +188,30 @@ double own_cost(const Program& program, const Node& node) {
             return static_cast<double>(std::min<std::int64_t>(count, 64));
         },
         [](const Apply& apply) { return cost_of(apply.op); }, [](const Select&) { return 1.0; },
-        [&](const Reduce& reduce) { return repetitions(program, reduce); },
+        [&](const Reduce&) { return repetitions(program, node); },
         [](const Sample&) { return draw_cost; }, [](const Discrete&) { return draw_cost; },
-        [&](const DiscreteOver& discrete) { return draw_cost + repetitions(program, discrete); },
+        [&](const DiscreteOver&) { return draw_cost + repetitions(program, node); },
         [](const auto&) { return 0.0; });
 }
 
-double repetitions(const Program& program, const Reduce& reduce) {
-    const double size = size_of(program, reduce.variable);
-    return std::max(1.0, reduce.bounds ? length_of(program, *reduce.bounds, size) : size);
-}
-
-double repetitions(const Program& program, const DiscreteOver& discrete) {
-    return std::max(1.0, size_of(program, discrete.variable));
+double repetitions(const Program& program, const Node& binder) {
+    const double size = size_of(program, *bound_variable(binder));
+    const auto* reduce = std::get_if<Reduce>(&binder.form);
+    const bool is_row = reduce && reduce->bounds;
+    return std::max(1.0, is_row ? length_of(program, *reduce->bounds, size) : size);
 }
 
 double cost_of_step(const Program& program) {
-    StepCost cost(program);
-    double total = cost.of_computation(program.reward);
-    for (const Definition& definition : program.step) total += cost.of_definition(definition.body);
+    const auto cost_of_computation = [&](const Computation& computation) {
+        BlockCost cost(program, computation.body);
+        cost.add_value(computation.value);
+        return cost.total();
+    };
+    double total = cost_of_computation(program.reward);
+    for (const Definition& definition : program.step)
+        total += BlockCost(program, definition.body).total();
     for (const auto* conditions : {&program.invariants, &program.terminations})
-        for (const Computation& condition : *conditions) total += cost.of_computation(condition);
+        for (const Computation& condition : *conditions) total += cost_of_computation(condition);
     return total;
 }
 

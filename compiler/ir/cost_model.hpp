@@ -1,7 +1,7 @@
-// What evaluating an expression costs, in units of an addition.
+// The price of each expression, in units of an addition, and the cost of a step.
 //
-// Passes ask it whether a rewrite pays (Facts::cost), and `rddlc --stats` reports the cost of a
-// step before and after each of them.
+// Passes compare prices to decide whether a rewrite pays (Facts::cost). `rddlc --stats` reports the
+// cost of a step before and after each pass, and a pass that makes a step cost more is undone.
 #pragma once
 
 #include "ir/ir.hpp"
@@ -10,7 +10,7 @@
 
 namespace rddlc::ir {
 
-// Prices. A Select of two branches up to `cheap` needs no branch; an elementary function, as exp,
+// A Select of two branches of at most cheap_cost needs no branch; an elementary function, as exp,
 // is a polynomial of about ten terms and its reduction; a draw is a block of Philox and the
 // quantile.
 inline constexpr double cheap_cost = 6;
@@ -28,12 +28,11 @@ double own_cost(const Program& program, const Node& node);
 
 // How often a Reduce or DiscreteOver evaluates its body, on average where rows have different
 // lengths; at least 1.
-double repetitions(const Program& program, const Reduce& reduce);
-double repetitions(const Program& program, const DiscreteOver& discrete);
+double repetitions(const Program& program, const Node& binder);
 
 // The cost of one step, of its reward and of the tests of the new state, as the emitted code makes
 // it: what does not change in a loop is computed before it, and what stands twice in a definition
-// is computed once (passes/share_subexpressions.hpp).
+// is computed once (passes/sharing/share_subexpressions.hpp).
 double cost_of_step(const Program& program);
 
 }  // namespace rddlc::ir

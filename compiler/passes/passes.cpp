@@ -117,15 +117,6 @@ constexpr Pass in_order[] = {
      passes::evaluate_together},
 };
 
-PassRun measured(const Pass& pass, ir::Program& program) {
-    const auto begin = std::chrono::steady_clock::now();
-    PassRun run{
-        .name = pass.name, .report = {}, .undone = false, .before = {}, .after = {}, .time = {}};
-    program = pass.run(std::move(program), run.report);
-    run.time = std::chrono::steady_clock::now() - begin;
-    return run;
-}
-
 }  // namespace
 
 std::vector<PassDescription> all_passes() {
@@ -146,26 +137,34 @@ ProgramSize size_of(const ir::Program& program) {
 
 namespace {
 
-// Takes what the pass has made, unless a step of it costs more: then the program stays as it was,
-// and the run says so.
-ir::Program kept(const ir::Program& before, ir::Program made, PassRun& run) {
-    if (ir::cost_of_step(made) <= ir::cost_of_step(before)) return made;
-    run.undone = true;
-    run.report.clear();
-    return before;
+// Runs a pass on the program, which has `size`. The program stays as it was if a step of the result
+// costs more, and the run says so.
+PassRun run_pass(const Pass& pass, ir::Program& program, const ProgramSize& size) {
+    PassRun run{
+        .name = pass.name, .report = {}, .undone = false, .before = size, .after = {}, .time = {}};
+    const auto begin = std::chrono::steady_clock::now();
+    ir::Program made = pass.run(program, run.report);  // constant tables are shared
+    run.time = std::chrono::steady_clock::now() - begin;
+    run.after = size_of(made);
+    run.undone = run.after.operations > size.operations;
+    if (run.undone) {
+        run.after = size;
+        run.report.clear();
+    } else {
+        program = std::move(made);
+    }
+    return run;
 }
 
-// Adds what they did to `runs`, with the sizes only if they are wanted.
-ir::Program run_passes(ir::Program program, const PassOptions& options, bool wants_sizes,
+// Adds what the passes did to `runs`.
+ir::Program run_passes(ir::Program program, const PassOptions& options,
                        std::vector<PassRun>& runs) {
+    ProgramSize size = size_of(program);
     for (const Pass& pass : in_order) {
         if (options.without.contains(pass.name)) continue;
         if (pass.has(only_fast_math) && !options.fast_math) continue;
-        const ir::Program before = program;  // constant tables are shared
-        PassRun run = measured(pass, program);
-        program = kept(before, std::move(program), run);
-        if (wants_sizes) run.before = size_of(before);
-        if (wants_sizes) run.after = size_of(program);
+        PassRun run = run_pass(pass, program, size);
+        size = run.after;
         if (options.observe) options.observe(run, program);
         runs.push_back(std::move(run));
 #ifndef NDEBUG
@@ -206,11 +205,10 @@ ir::Program optimise(ir::Program program, const PassOptions& options, std::vecto
         moderate.reset();
     }
     std::vector<PassRun> made;
-    program = run_passes(std::move(program), options, runs != nullptr, made);
+    program = run_passes(std::move(program), options, made);
     if (moderate) {
         std::vector<PassRun> made_of_moderate;
-        ir::Program other =
-            run_passes(std::move(**moderate), options, runs != nullptr, made_of_moderate);
+        ir::Program other = run_passes(std::move(**moderate), options, made_of_moderate);
         if (terms_left_out(made_of_moderate) > terms_left_out(made)) {
             program.moderate = step_alone(std::move(other));
             made = std::move(made_of_moderate);

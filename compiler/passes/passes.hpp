@@ -25,7 +25,8 @@ std::vector<PassDescription> all_passes();
 // How large a program is.
 struct ProgramSize {
     std::size_t nodes;
-    double operations;  // of one step with the reward and the tests of the new state; Facts::cost
+    double
+        operations;  // of one step with the reward and the tests of the new state; ir::cost_of_step
 };
 ProgramSize size_of(const ir::Program& program);
 
@@ -42,8 +43,7 @@ struct PassOptions {
     std::set<std::string, std::less<>> without;  // names of passes that are left out
     bool fast_math = false;                      // --fast-math
     // Called after each run of a pass with its result: first for the program for any values, then
-    // for the one for moderate values (ir::Program::only_moderate). The sizes of the run are 0
-    // unless `optimise` is asked for all runs.
+    // for the one for moderate values (ir::Program::only_moderate).
     std::function<void(const PassRun&, const ir::Program&)> observe = {};
 };
 
