@@ -71,11 +71,7 @@ class DeclaredReals {
             },
             [&](const model::Apply& n) { return on_ints(n.op) && all(n.operands); },
             [&](const model::Aggregate& n) { return keeps_type(n.op) && search(*n.body); },
-            [&](const model::Sample& n) {
-                return (n.distribution == Distribution::KronDelta ||
-                        n.distribution == Distribution::DiracDelta) &&
-                       all(n.parameters);
-            },
+            [&](const model::Sample& n) { return is_delta(n.distribution) && all(n.parameters); },
             [](const auto&) { return false; });
     }
 
@@ -199,8 +195,7 @@ class Narrowing {
     }
 
     Typed delta(model::Sample&& n, Span span, model::ValueType to) {
-        if (!is_delta(n.distribution))
-            return std::nullopt;
+        if (!is_delta(n.distribution)) return std::nullopt;
         Typed value = at(std::move(n.parameters[0]), to);
         if (!value) return std::nullopt;
         n.parameters[0] = std::move(*value);
