@@ -222,9 +222,9 @@ Expression Expressions::call(const std::string& function, const std::vector<ir::
 tree::Expressions Expressions::place(const ir::Place& place) {
     uses_.context = true;
     const auto& series = unit_.program[place.site].series;
-    tree::Expressions numbers = {word(std::to_string(place.site.index)),
+    tree::Expressions numbers = {tree::number(place.site.index),
                                  several_ ? word(several_->objects) : index(place.index)};
-    if (series) numbers.push_back(word(std::to_string(series->index)));
+    if (series) numbers.push_back(tree::number(series->index));
     return {word(context()), braces("", std::move(numbers))};
 }
 

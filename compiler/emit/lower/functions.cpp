@@ -238,7 +238,7 @@ const std::string conditions_name = "conditions";
 tree::Statement add_condition(const ConditionKind& kind, std::size_t k,
                               tree::Expression condition) {
     tree::Expressions arguments;
-    if (kind.word == "precondition") arguments.push_back(word(std::to_string(k)));
+    if (kind.word == "precondition") arguments.push_back(tree::number(k));
     arguments.push_back(std::move(condition));
     tree::Statement add{tree::call(conditions_name + ".add", std::move(arguments))};
     if (kind.word == "termination") return add;

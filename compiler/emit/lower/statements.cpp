@@ -326,7 +326,7 @@ tree::Expression FunctionBody::discrete(const ir::Discrete& discrete) {
     const std::string type = expressions_.weights_type(discrete);
     statements_.push_back({tree::Expression{tree::Declared{type, name}}});
     for (std::size_t k = 0; k < discrete.weights.size(); ++k) {
-        tree::Expression weight = tree::element(tree::word(name), tree::word(std::to_string(k)));
+        tree::Expression weight = tree::element(tree::word(name), tree::number(k));
         const Use use{width(weight) + assignment_width};
         statements_.push_back({tree::Assign{std::move(weight), value(use, discrete.weights[k])}});
     }

@@ -118,7 +118,7 @@ std::string objects(const Unit& unit) {
     for (std::size_t type = 0; type < unit.program.types.size(); ++type) {
         const ir::ObjectType& described = unit.program.types[type];
         counts.push_back(tree::assign("inline constexpr rddl::Index " + unit.names.counts[type],
-                                      word(std::to_string(described.objects.size()))));
+                                      tree::number(described.objects.size())));
         counts.back().remark = object_list(described);
     }
     return section("objects", tree::print(counts, 0));
