@@ -112,7 +112,7 @@ void Cem::set_steps(std::int64_t steps) {
 
 namespace {
 
-// Rows from `first` on become those of the row that is given.
+// Gives `all` `count` rows; those from `first` on are copies of `row`.
 template <class Number>
 void fill_rows(std::vector<Number>& all, std::size_t first, std::size_t count,
                const std::vector<Number>& row) {
@@ -123,8 +123,14 @@ void fill_rows(std::vector<Number>& all, std::size_t first, std::size_t count,
 
 }  // namespace
 
+// The course gets so many steps; those from `first` on do nothing.
+void Cem::end_by_noop(Course& course, std::int64_t first, std::int64_t steps) const {
+    const auto begin = static_cast<std::size_t>(first), end = static_cast<std::size_t>(steps);
+    fill_rows(course.numbers, begin, end, default_numbers_);
+    fill_rows(course.indices, begin, end, default_indices_);
+}
+
 void Cem::make_population(Memory& memory, const Situation& situation, Luck& luck, Meter& meter) {
-    const auto rows = static_cast<std::size_t>(steps_);
     std::size_t next = 0;
     const auto add = [&](Origin origin) -> Course* {
         if (next == population_) return nullptr;
@@ -138,10 +144,7 @@ void Cem::make_population(Memory& memory, const Situation& situation, Luck& luck
         }
     if (base_)
         if (Course* const course = add(Origin::Policy)) record_policy(situation, *course, meter);
-    if (Course* const course = add(Origin::Noop)) {
-        fill_rows(course->numbers, 0, rows, default_numbers_);
-        fill_rows(course->indices, 0, rows, default_indices_);
-    }
+    if (Course* const course = add(Origin::Noop)) end_by_noop(*course, 0, steps_);
     if (Course* const course = add(Origin::Middle)) memory.distribution.middle(*course);
     memory.distribution.prepare();
     for (std::size_t sample = 0; Course* const course = add(Origin::Sample); ++sample)
@@ -153,8 +156,7 @@ void Cem::make_population(Memory& memory, const Situation& situation, Luck& luck
 
 void Cem::record_policy(const Situation& situation, Course& course, Meter& meter) {
     const auto rows = static_cast<std::size_t>(steps_);
-    fill_rows(course.numbers, 0, rows, default_numbers_);
-    fill_rows(course.indices, 0, rows, default_indices_);
+    end_by_noop(course, 0, steps_);
     recording_->begin(situation.batch, situation.place, std::span(lucks_).first(1));
     recorder_->begin(situation.episode, situation.step, situation.horizon,
                      std::span(lucks_).first(1));
@@ -335,12 +337,8 @@ void Cem::decide(const Situation& situation, std::byte* action, Thoughts* though
         if (needs_more_steps(memory, situation.left)) {
             memory.horizon = std::min({2 * memory.horizon, situation.left, longest_lookahead});
             memory.distribution.extend(memory.horizon);
-            for (std::size_t k = 0; k < memory.kept_count; ++k) {
-                fill_rows(memory.kept[k].numbers, static_cast<std::size_t>(steps_),
-                          static_cast<std::size_t>(memory.horizon), default_numbers_);
-                fill_rows(memory.kept[k].indices, static_cast<std::size_t>(steps_),
-                          static_cast<std::size_t>(memory.horizon), default_indices_);
-            }
+            for (std::size_t k = 0; k < memory.kept_count; ++k)
+                end_by_noop(memory.kept[k], steps_, memory.horizon);
         }
     } while (meter.has_room(lanes * depth + comparison(depth), compares ? seconds : 0));
 
@@ -368,13 +366,11 @@ void Cem::move_on(Memory& memory) {
     memory.distribution.shift();
     for (std::size_t k = 0; k < memory.kept_count; ++k) {
         Course& course = memory.kept[k];
-        const auto rows = static_cast<std::size_t>(memory.horizon);
         std::shift_left(course.numbers.begin(), course.numbers.end(),
                         static_cast<std::ptrdiff_t>(default_numbers_.size()));
         std::shift_left(course.indices.begin(), course.indices.end(),
                         static_cast<std::ptrdiff_t>(default_indices_.size()));
-        fill_rows(course.numbers, rows - 1, rows, default_numbers_);
-        fill_rows(course.indices, rows - 1, rows, default_indices_);
+        end_by_noop(course, memory.horizon - 1, memory.horizon);
     }
 }
 

@@ -46,6 +46,7 @@ class Cem : public Planner {
 
     Memory& memory_of(const Situation& situation);
     void set_steps(std::int64_t steps);
+    void end_by_noop(Course& course, std::int64_t first, std::int64_t steps) const;
     void make_population(Memory& memory, const Situation& situation, Luck& luck, Meter& meter);
     void record_policy(const Situation& situation, Course& course, Meter& meter);
     // Plays lane k by the course courses[k]; the steps that were made, fewer where time is up.

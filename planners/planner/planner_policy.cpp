@@ -10,8 +10,10 @@
 #include "solvers/files/fingerprint.hpp"
 #include "support/diagnostic.hpp"
 #include "support/failure.hpp"
+#include "support/suggestion.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <memory>
@@ -112,14 +114,12 @@ const Entry& entry_named(const std::string& name) {
         known.push_back(entry.text.name);
     }
     const auto near = did_you_mean(name, known);
-    std::string all;
-    for (const std::string& each : known) all += (all.empty() ? "" : ", ") + each;
-    throw usage(near ? fmt::format("there is no planner '{}'; did you mean '{}'?", name, *near)
-                     : fmt::format("there is no planner '{}'; there are {}", name, all));
+    throw usage(fmt::format(
+        "there is no planner '{}'{}", name,
+        near ? ending_with_name(near) : fmt::format("; there are {}", fmt::join(known, ", "))));
 }
 
-Chosen read_planner(const std::string& policy) {
-    const auto [name, words] = words_of(policy);
+Chosen read_planner(const std::string& name, const Words& words) {
     const Entry& entry = entry_named(name);
     Chosen chosen = entry.read(words);
     if (is_planner(chosen.common.policy))
@@ -221,17 +221,16 @@ const std::vector<PlannerText>& planner_texts() {
 }
 
 void require_planner(const std::string& policy) {
-    read_planner(policy);
+    const auto [name, words] = words_of(policy);
+    read_planner(name, words);
 }
 
 solvers::Policy planner_policy(const rddl_simulator& simulator, const std::string& policy,
                                const PolicySettings& settings) {
-    // The seed of the command is what the text is read on top of.
-    const auto [name, words] = words_of(policy);
-    const bool has_seed =
-        std::ranges::any_of(words, [](const auto& word) { return word.first == "seed"; });
-    const Chosen chosen =
-        read_planner(has_seed ? policy : fmt::format("{},seed={}", policy, settings.seed));
+    auto [name, words] = words_of(policy);
+    // Later options override the seed of the command.
+    words.insert(words.begin(), {"seed", std::to_string(settings.seed)});
+    const Chosen chosen = read_planner(name, words);
     require_sight(*simulator.problem, chosen, settings.cheat);
     std::optional<solvers::Policy> base;
     if (!chosen.common.policy.empty()) base = settings.named(chosen.common.policy);

@@ -28,6 +28,7 @@ Rollout::Rollout(const Surroundings& surroundings, const RolloutOptions& options
     : simulator_(surroundings.simulator),
       options_(options),
       space_(solvers::action_space(simulator_)),
+      records_(simulator_),
       action_size_(static_cast<std::size_t>(simulator_.problem->action_size)),
       actions_(FiniteActions::of(simulator_, space_, static_cast<std::size_t>(options.actions))),
       continuations_(simulator_, lanes_of(options), surroundings.horizon),
@@ -71,12 +72,11 @@ void Rollout::draw_actions(const Situation& situation, Luck& luck) {
     random_.begin(situation.episode, situation.step, situation.horizon, lucks_);
     const std::vector<std::uint8_t> all(count, 1);
     random_.act(*sampling_, all, drawn_.data(), situation.stops);
-    const solvers::ActionRecords records(simulator_);
-    records.read(situation.base_action, base_row_.data());
+    records_.read(situation.base_action, base_row_.data());
     constexpr float shares[] = {1, 0.5f, 0.2f, 0.05f};  // of what is random
     for (std::size_t k = 0; k < count; ++k) {
         float* const row = rows_.data() + k * base_row_.size();
-        records.read(drawn_.data() + k * action_size_, row);
+        records_.read(drawn_.data() + k * action_size_, row);
         if (k == 0) std::ranges::copy(space_.defaults, row);
         const float share = k == 0 ? 1 : shares[k % 4];
         for (const solvers::RealHead& head : space_.reals) {
@@ -87,10 +87,10 @@ void Rollout::draw_actions(const Situation& situation, Luck& luck) {
             for (const solvers::CategoryHead& head : space_.categories)
                 if (head.group.empty() && luck.unit() >= static_cast<double>(share))
                     row[head.column] = base_row_[static_cast<std::size_t>(head.column)];
-        records.write(row, drawn_.data() + k * action_size_);
+        records_.write(row, drawn_.data() + k * action_size_);
     }
     if (space_.may_be_illegal)
-        solvers::mend_actions(simulator_, space_, records, sampling_->batch(), rows_.data(),
+        solvers::mend_actions(simulator_, space_, records_, sampling_->batch(), rows_.data(),
                               drawn_.data(), mending_);
 }
 

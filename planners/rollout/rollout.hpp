@@ -44,6 +44,7 @@ class Rollout : public Planner {
     const rddl_simulator& simulator_;
     RolloutOptions options_;
     solvers::ActionSpace space_;
+    solvers::ActionRecords records_;
     std::size_t action_size_;
     std::optional<FiniteActions> actions_;
     Continuations continuations_;

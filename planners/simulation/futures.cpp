@@ -58,18 +58,21 @@ void Futures::look_at_causes() {
         running_count_ += running_[k] = causes_[k] == RDDL_RUNNING;
 }
 
-void Futures::step(const std::byte* actions) {
+rddl_transition Futures::outputs() {
     rddl_transition out{};
     out.rewards = rewards_.data();
     out.causes = causes_.data();
+    return out;
+}
+
+void Futures::step(const std::byte* actions) {
+    const rddl_transition out = outputs();
     require_done(simulator_, simulator_.step(batch_.get(), actions, &out));
     take_step();
 }
 
 void Futures::step_values(const float* actions) {
-    rddl_transition out{};
-    out.rewards = rewards_.data();
-    out.causes = causes_.data();
+    const rddl_transition out = outputs();
     require_done(simulator_,
                  simulator_.step_values(batch_.get(), RDDL_FLOAT, actions, nullptr, &out));
     take_step();

@@ -45,6 +45,7 @@ class Futures {
     double value(std::size_t k) const { return returns_[k]; }
 
   private:
+    rddl_transition outputs();
     void look_at_causes();
     void take_step();
 

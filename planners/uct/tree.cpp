@@ -36,7 +36,7 @@ const NodeId* Tree::find(const std::byte* state, std::int64_t depth) const {
     return found == ids_.end() ? nullptr : &found->second;
 }
 
-std::pair<NodeId, bool> Tree::node_of(const std::byte* state, std::int64_t depth) {
+NodeId Tree::node_of(const std::byte* state, std::int64_t depth) {
     const auto [found, is_new] =
         ids_.try_emplace(key_of(state, depth), static_cast<NodeId>(nodes_.size()));
     if (is_new) {
@@ -45,7 +45,7 @@ std::pair<NodeId, bool> Tree::node_of(const std::byte* state, std::int64_t depth
         nodes_.push_back(node);
         states_.insert(states_.end(), state, state + state_size_);
     }
-    return {found->second, is_new};
+    return found->second;
 }
 
 void Tree::add_edge(NodeId id, std::uint32_t action) {

@@ -52,8 +52,8 @@ class Tree {
         : state_size_(state_size), discount_(discount), backup_(backup) {}
 
     void clear();
-    // The node of the state at that depth, and whether it is new.
-    std::pair<NodeId, bool> node_of(const std::byte* state, std::int64_t depth);
+    // The node of the state at that depth: a new one, unless find() knows it.
+    NodeId node_of(const std::byte* state, std::int64_t depth);
     // Nothing: it was not met before.
     const NodeId* find(const std::byte* state, std::int64_t depth) const;
     void add_edge(NodeId node, std::uint32_t action);  // of one node after the other
@@ -67,6 +67,7 @@ class Tree {
         return {edges_.data() + node.first_edge, node.edge_count};
     }
     Edge& edge(EdgeId id) { return edges_[id]; }
+    EdgeId id_of(const Edge& edge) const { return static_cast<EdgeId>(&edge - edges_.data()); }
     const std::byte* state(NodeId id) const { return states_.data() + id * state_size_; }
     std::size_t size() const { return nodes_.size(); }
 

@@ -108,7 +108,7 @@ bool Uct::open_root(const Situation& situation, Luck& luck, Meter& meter) {
     solvers::require_done(
         simulator_, simulator_.get_state(situation.batch, situation.place, 1, states_.data()));
     tree_.clear();
-    root_ = tree_.node_of(states_.data(), 0).first;
+    root_ = tree_.node_of(states_.data(), 0);
     new_nodes_.assign(1, root_);
     add_edges(root_, situation.batch, situation.place);
     least_ = std::numeric_limits<double>::infinity();
@@ -132,8 +132,7 @@ EdgeId Uct::choose_edge(const Node& node, Luck& luck) {
     EdgeId chosen = node.first_edge;
     for (const Edge& edge : tree_.edges(node)) {
         all += edge.weight();
-        if (edge.weight() == 0 && luck.below(++untried) == 0)
-            chosen = node.first_edge + static_cast<EdgeId>(&edge - tree_.edges(node).data());
+        if (edge.weight() == 0 && luck.below(++untried) == 0) chosen = tree_.id_of(edge);
     }
     if (untried > 0) return chosen;
     const double left = static_cast<double>(depth_ - node.depth) / static_cast<double>(depth_);
@@ -147,7 +146,7 @@ EdgeId Uct::choose_edge(const Node& node, Luck& luck) {
             edge.value + std::max(bonus, 1e-9) * std::sqrt(logarithm / edge.weight());
         if (!(bound > best)) continue;
         best = bound;
-        chosen = node.first_edge + static_cast<EdgeId>(&edge - tree_.edges(node).data());
+        chosen = tree_.id_of(edge);
     }
     return chosen;
 }
@@ -218,7 +217,7 @@ void Uct::follow(std::size_t k, Luck& luck, std::int64_t depth) {
                 simulator_, simulator_.set_state(trees_.batch(), static_cast<std::int64_t>(k), 1,
                                                  tree_.state(next), &step));
         } else {
-            next = tree_.node_of(state, depth).first;
+            next = tree_.node_of(state, depth);
             add_edges(next, trees_.batch(), static_cast<std::int64_t>(k));
             new_nodes_.push_back(next);
         }
@@ -253,7 +252,7 @@ EdgeId Uct::best_edge() const {
         if (edge.weight() == 0 || edge.weight() < least_tried * most || !(edge.value > best))
             continue;
         best = edge.value;
-        chosen = node.first_edge + static_cast<EdgeId>(&edge - tree_.edges(node).data());
+        chosen = tree_.id_of(edge);
     }
     return chosen;
 }
