@@ -15,18 +15,18 @@ std::vector<const rddl_fluent*> state_fluents(const rddl_problem& problem) {
     return fluents;
 }
 
-Range range_of(const Moment& moment, const rddl_fluent& fluent) {
+Range range_of(const Snapshot& snapshot, const rddl_fluent& fluent) {
     if (fluent.scalar == RDDL_BOOL) return {0, 1};
     if (fluent.range_type >= 0) {
-        const auto objects = rddl_type_at(&moment.problem(), fluent.range_type)->object_count;
+        const auto objects = rddl_type_at(&snapshot.problem(), fluent.range_type)->object_count;
         return {0, static_cast<double>(std::max<std::int64_t>(objects - 1, 1))};
     }
     if (fluent.lower && fluent.upper && std::isfinite(fluent.lower[0]) &&
         std::isfinite(fluent.upper[0]) && fluent.count == 1)
         return {fluent.lower[0], fluent.upper[0]};
     double low = std::numeric_limits<double>::infinity(), high = -low;
-    for (const Step& step : moment.steps())
-        for (const double value : moment.values_in(step, fluent).numbers) {
+    for (const Step& step : snapshot.steps())
+        for (const double value : snapshot.values_in(step, fluent).numbers) {
             if (!std::isfinite(value)) continue;
             low = std::min(low, value);
             high = std::max(high, value);
@@ -74,8 +74,9 @@ void draw_key(Canvas& canvas, const Box& box, const Values& values, const Range&
             return;
 }
 
-std::string objects_of(const Moment& moment, const rddl_fluent& fluent, std::int64_t grounding) {
-    const std::string name = moment.world().name_of(fluent, grounding);
+std::string objects_of(const Snapshot& snapshot, const rddl_fluent& fluent,
+                       std::int64_t grounding) {
+    const std::string name = snapshot.world().name_of(fluent, grounding);
     const std::size_t open = name.find('(');
     return open == std::string::npos ? name : name.substr(open + 1, name.size() - open - 2);
 }

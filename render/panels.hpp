@@ -2,7 +2,7 @@
 #pragma once
 
 #include "render/canvas.hpp"
-#include "render/moment.hpp"
+#include "render/snapshot.hpp"
 #include "render/widgets.hpp"
 
 #include <cmath>
@@ -26,7 +26,7 @@ struct Range {
         return std::isfinite(value) ? 0.5 : NAN;
     }
 };
-Range range_of(const Moment& moment, const rddl_fluent& fluent);
+Range range_of(const Snapshot& snapshot, const rddl_fluent& fluent);
 
 // The colour of a value within its range; objects have colours of their own.
 Color value_color(const Values& values, double value, const Range& range);
@@ -37,7 +37,7 @@ void draw_key(Canvas& canvas, const Box& box, const Values& values, const Range&
               const Box& other = {});
 
 // "r1, c2" of "at(r1, c2)": the objects of a grounding.
-std::string objects_of(const Moment& moment, const rddl_fluent& fluent, std::int64_t grounding);
+std::string objects_of(const Snapshot& snapshot, const rddl_fluent& fluent, std::int64_t grounding);
 
 // Boxes of one size that fill the area, in rows, with a gap between them.
 std::vector<Box> panel_boxes(const Box& area, std::size_t count, double wanted_shape, double gap);

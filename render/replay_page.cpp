@@ -72,10 +72,10 @@ std::string names(const World& world) {
     return out;
 }
 
-std::string values_of(const Moment& moment) {
+std::string values_of(const Snapshot& snapshot) {
     std::string out;
-    for (const rddl_fluent* const fluent : state_fluents(moment.problem())) {
-        const Values& values = moment.values(*fluent);
+    for (const rddl_fluent* const fluent : state_fluents(snapshot.problem())) {
+        const Values& values = snapshot.values(*fluent);
         for (std::size_t g = 0; g < values.numbers.size(); ++g)
             out += (out.empty() ? "" : ",") + json_value(values, g);
     }
@@ -94,15 +94,15 @@ void ReplayPage::begin_run(std::string_view name) {
     first_frame_ = true;
 }
 
-void ReplayPage::add(const Moment& moment, const Picture& picture) {
-    const Step& now = moment.now();
+void ReplayPage::add(const Snapshot& snapshot, const Picture& picture) {
+    const Step& now = snapshot.now();
     if (!first_frame_) runs_ += ",\n";
     first_frame_ = false;
     runs_ += "{\"step\":" + std::to_string(now.number) + ",\"reward\":" + json_number(now.reward) +
              ",\"total\":" + json_number(now.total) +
-             ",\"acts\":" + (moment.acts() ? "true" : "false") +
-             ",\"action\":" + json_text(action_text(moment)) + ",\"end\":" + json_text(now.end) +
-             ",\"values\":[" + values_of(moment) + "],\"picture\":\"" +
+             ",\"acts\":" + (snapshot.acts() ? "true" : "false") +
+             ",\"action\":" + json_text(action_text(snapshot)) + ",\"end\":" + json_text(now.end) +
+             ",\"values\":[" + values_of(snapshot) + "],\"picture\":\"" +
              base64(small_png_bytes(picture)) + "\"}";
 }
 

@@ -2,7 +2,7 @@
 // for no other.
 #pragma once
 
-#include "render/moment.hpp"
+#include "render/snapshot.hpp"
 
 #include <string>
 #include <string_view>
@@ -19,7 +19,7 @@ class ReplayPage {
     // The frames that follow are of this episode. One or two; texts are UTF-8.
     void begin_run(std::string_view name);
     // A state with its picture, which has the size of the page's.
-    void add(const Moment& moment, const Picture& picture);
+    void add(const Snapshot& snapshot, const Picture& picture);
     // All of the file.
     std::string html() const;
 

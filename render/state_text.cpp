@@ -8,12 +8,12 @@ namespace rddl::render {
 
 namespace {
 
-std::string true_objects(const Moment& moment, const Values& values) {
+std::string true_objects(const Snapshot& snapshot, const Values& values) {
     std::string text;
     for (std::size_t g = 0; g < values.numbers.size(); ++g) {
         if (values.numbers[g] == 0) continue;
         const std::string name =
-            moment.world().name_of(*values.fluent, static_cast<std::int64_t>(g));
+            snapshot.world().name_of(*values.fluent, static_cast<std::int64_t>(g));
         const std::size_t open = name.find('(');
         std::string objects = name.substr(open + 1, name.size() - open - 2);
         if (values.fluent->rank > 1) objects = "(" + objects + ")";
@@ -29,42 +29,42 @@ bool differ(double a, double b) {
 
 }  // namespace
 
-std::vector<TextLine> state_lines(const Moment& moment) {
+std::vector<TextLine> state_lines(const Snapshot& snapshot) {
     std::vector<TextLine> lines;
-    const auto& steps = moment.steps();
+    const auto& steps = snapshot.steps();
     const Step* const before = steps.size() > 1 ? &steps[steps.size() - 2] : nullptr;
-    for (const rddl_fluent* const fluent : state_fluents(moment.problem())) {
-        const Values& values = moment.values(*fluent);
-        const Values last = before ? moment.values_in(*before, *fluent) : values;
+    for (const rddl_fluent* const fluent : state_fluents(snapshot.problem())) {
+        const Values& values = snapshot.values(*fluent);
+        const Values last = before ? snapshot.values_in(*before, *fluent) : values;
         if (fluent->scalar == RDDL_BOOL && fluent->rank > 0) {
             lines.push_back(
-                {fluent->name, true_objects(moment, values), values.numbers != last.numbers});
+                {fluent->name, true_objects(snapshot, values), values.numbers != last.numbers});
             continue;
         }
         for (std::size_t g = 0; g < values.numbers.size(); ++g)
-            lines.push_back({moment.world().name_of(*fluent, static_cast<std::int64_t>(g)),
+            lines.push_back({snapshot.world().name_of(*fluent, static_cast<std::int64_t>(g)),
                              value_text(values, g), differ(values.numbers[g], last.numbers[g])});
     }
     return lines;
 }
 
-std::string action_text(const Moment& moment) {
+std::string action_text(const Snapshot& snapshot) {
     std::string text;
     std::size_t left_out = 0;
-    const rddl_problem& problem = moment.problem();
+    const rddl_problem& problem = snapshot.problem();
     Step passive;  // whose actions are the default's
     for (std::int32_t f = 0; f < problem.fluent_count; ++f) {
         const rddl_fluent& fluent = *rddl_fluent_at(&problem, f);
         if (fluent.role != RDDL_ACTION) continue;
-        const Values& taken = moment.values(fluent);
-        const Values usual = moment.values_in(passive, fluent);
+        const Values& taken = snapshot.values(fluent);
+        const Values usual = snapshot.values_in(passive, fluent);
         for (std::size_t g = 0; g < taken.numbers.size(); ++g) {
             if (taken.numbers[g] == usual.numbers[g]) continue;
             if (text.size() > 2000) {
                 ++left_out;
                 continue;
             }
-            std::string name = moment.world().name_of(fluent, static_cast<std::int64_t>(g));
+            std::string name = snapshot.world().name_of(fluent, static_cast<std::int64_t>(g));
             if (fluent.scalar != RDDL_BOOL)
                 name += " = " + value_text(taken, g);
             else if (taken.numbers[g] == 0)

@@ -1,7 +1,7 @@
 // A state in words, a line for each fluent or value: for the text visualizer, and for terminals.
 #pragma once
 
-#include "render/moment.hpp"
+#include "render/snapshot.hpp"
 
 #include <string>
 #include <vector>
@@ -15,9 +15,9 @@ struct TextLine {
 };
 
 // One line lists the objects for which a bool with parameters is true.
-std::vector<TextLine> state_lines(const Moment& moment);
+std::vector<TextLine> state_lines(const Snapshot& snapshot);
 
 // "reboot(c1), throttle = 0.5": what differs from the default; "default" where nothing does.
-std::string action_text(const Moment& moment);
+std::string action_text(const Snapshot& snapshot);
 
 }  // namespace rddl::render

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "render/canvas.hpp"
-#include "render/moment.hpp"
+#include "render/snapshot.hpp"
 
 #include <functional>
 #include <initializer_list>
@@ -12,7 +12,7 @@
 
 namespace rddl::render {
 
-using Draw = std::function<void(Canvas&, const Box&, const Moment&)>;
+using Draw = std::function<void(Canvas&, const Box&, const Snapshot&)>;
 
 struct Visualizer {
     std::string_view name;
@@ -33,6 +33,6 @@ std::string_view missing_fluent(const Visualizer& visualizer, const World& world
 const Visualizer& visualizer_for(const World& world);
 
 // A whole picture: title, what the visualizer draws, and a line with step, reward and action.
-void draw_picture(Canvas& canvas, const Visualizer& visualizer, const Moment& moment);
+void draw_picture(Canvas& canvas, const Visualizer& visualizer, const Snapshot& snapshot);
 
 }  // namespace rddl::render

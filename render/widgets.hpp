@@ -2,7 +2,7 @@
 #pragma once
 
 #include "render/canvas.hpp"
-#include "render/moment.hpp"
+#include "render/snapshot.hpp"
 
 #include <cstddef>
 #include <span>

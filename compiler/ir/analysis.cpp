@@ -16,36 +16,37 @@ namespace {
 // Joins what is known of operands into what is known of their user.
 class Collector {
   public:
-    Collector(const Program& program, std::span<const Facts> known, TableFacts& tables)
+    Collector(const Program& program, std::span<const Properties> known, TableProperties& tables)
         : program_(program), known_(known), tables_(tables) {}
 
-    Facts facts_of(const Node& node) {
+    Properties properties_of(const Node& node) {
         const std::vector<NodeId> operands = operands_of(node);
         for (NodeId operand : operands) add(known_[operand.index]);
         if (const auto variable = bound_variable(node))
             bind(*variable, operands.front(), repetitions(program_, node));
-        facts_.cost += own_cost(program_, node);
+        properties_.cost += own_cost(program_, node);
         match(node.form, [&](const auto& form) { describe(node.type, form); });
-        facts_.finite = node.type != Scalar::Real || (facts_.range && is_finite(*facts_.range)) ||
-                        (program_.assumes_finite && !is_fixed(node));
-        facts_.never_negative_zero =
-            node.type != Scalar::Real || excludes_zero(facts_.range) ||
+        properties_.finite = node.type != Scalar::Real ||
+                             (properties_.range && is_finite(*properties_.range)) ||
+                             (program_.assumes_finite && !is_fixed(node));
+        properties_.never_negative_zero =
+            node.type != Scalar::Real || excludes_zero(properties_.range) ||
             match(node.form, [&](const auto& form) { return is_never_negative_zero(form); });
-        return std::move(facts_);
+        return std::move(properties_);
     }
 
   private:
-    void add(const Facts& operand) {
-        facts_.may_fault |= operand.may_fault;
-        facts_.random |= operand.random;
-        facts_.uniform &= operand.uniform;
-        facts_.elementary |= operand.elementary;
-        facts_.cost += operand.cost;
+    void add(const Properties& operand) {
+        properties_.may_fault |= operand.may_fault;
+        properties_.random |= operand.random;
+        properties_.uniform &= operand.uniform;
+        properties_.elementary |= operand.elementary;
+        properties_.cost += operand.cost;
         std::vector<VariableId> merged;
-        std::set_union(facts_.free_variables.begin(), facts_.free_variables.end(),
+        std::set_union(properties_.free_variables.begin(), properties_.free_variables.end(),
                        operand.free_variables.begin(), operand.free_variables.end(),
                        std::back_inserter(merged));
-        facts_.free_variables = std::move(merged);
+        properties_.free_variables = std::move(merged);
     }
 
     // Its values are known, inf and nan among them.
@@ -55,21 +56,21 @@ class Collector {
     }
 
     void describe(Scalar, const Constant& constant) {
-        facts_.range = range_of(Table{constant.value});
+        properties_.range = range_of(Table{constant.value});
     }
 
     void describe(Scalar, const Index& index) {
-        facts_.free_variables = {index.variable};
+        properties_.free_variables = {index.variable};
         const auto last = static_cast<double>(program_[index.variable].size - 1);
-        if (last >= 0) facts_.range = Range{0, last};
+        if (last >= 0) properties_.range = Range{0, last};
     }
 
     void describe(Scalar, const Load& load) {
         const Buffer& buffer = program_[load.buffer];
-        facts_.uniform &= is_constant(load.buffer);
-        facts_.range = is_constant(load.buffer)        ? tables_.range(program_, load.buffer)
-                       : buffer.scalar == Scalar::Real ? buffer.range
-                                                       : object_range(buffer);
+        properties_.uniform &= is_constant(load.buffer);
+        properties_.range = is_constant(load.buffer)        ? tables_.range(program_, load.buffer)
+                            : buffer.scalar == Scalar::Real ? buffer.range
+                                                            : object_range(buffer);
     }
 
     // The range of a fluent whose values are objects.
@@ -82,32 +83,32 @@ class Collector {
 
     void describe(Scalar, const Search& search) {
         const auto size = static_cast<double>(program_[search.table].count());
-        facts_.range = Range{0, size};
+        properties_.range = Range{0, size};
     }
 
-    void describe(Scalar, const Bits&) { facts_.uniform = false; }
+    void describe(Scalar, const Bits&) { properties_.uniform = false; }
 
     void describe(Scalar type, const Local&) {
-        facts_.uniform = false;
-        if (type == Scalar::Bool) facts_.range = Range{0, 1};
+        properties_.uniform = false;
+        if (type == Scalar::Bool) properties_.range = Range{0, 1};
     }
 
     void describe(Scalar type, const Convert& convert) {
         const bool is_bool = program_[convert.operand].type == Scalar::Bool;
-        facts_.range = is_bool ? Range{0, 1} : range(convert.operand);
-        if (!facts_.range && type == Scalar::Real) facts_.range = any_int;
+        properties_.range = is_bool ? Range{0, 1} : range(convert.operand);
+        if (!properties_.range && type == Scalar::Real) properties_.range = any_int;
     }
 
     void describe(Scalar type, const Apply& apply) {
-        facts_.elementary |= apply.op == Operator::Sqrt || is_elementary(apply.op);
+        properties_.elementary |= apply.op == Operator::Sqrt || is_elementary(apply.op);
         std::vector<std::optional<Range>> ranges;
         for (NodeId operand : apply.operands) ranges.push_back(range(operand));
-        if (type == Scalar::Real) facts_.range = range_of(apply.op, ranges);
-        if (facts_.range && is_square(apply))
-            facts_.range->lower = std::max(facts_.range->lower, 0.0);
-        if (type == Scalar::Bool) facts_.range = Range{0, 1};
-        if (type == Scalar::Int) facts_.range = range_of_ints(apply, ranges);
-        if (apply.place) facts_.may_fault |= !always_defined(apply.op, ranges);
+        if (type == Scalar::Real) properties_.range = range_of(apply.op, ranges);
+        if (properties_.range && is_square(apply))
+            properties_.range->lower = std::max(properties_.range->lower, 0.0);
+        if (type == Scalar::Bool) properties_.range = Range{0, 1};
+        if (type == Scalar::Int) properties_.range = range_of_ints(apply, ranges);
+        if (apply.place) properties_.may_fault |= !always_defined(apply.op, ranges);
     }
 
     bool is_square(const Apply& apply) const {
@@ -149,21 +150,22 @@ class Collector {
         const auto a =
             is_guarded_product(program_, select) ? Range{0, 0} : range(select.then_value);
         const auto b = range(select.else_value);
-        if (a && b) facts_.range = join(*a, *b);
+        if (a && b) properties_.range = join(*a, *b);
     }
 
     void describe(Scalar, const Reduce& reduce) {
         const std::int64_t size = program_[reduce.variable].size;
         if (reduce.op == Reduction::ArgMin || reduce.op == Reduction::ArgMax)
-            facts_.range = Range{0, static_cast<double>(size - 1)};
+            properties_.range = Range{0, static_cast<double>(size - 1)};
         if (reduce.op == Reduction::Sum && program_[reduce.body].type == Scalar::Int)
-            facts_.range = range_of_sum(reduce);
+            properties_.range = range_of_sum(reduce);
         const auto& body = range(reduce.body);
         if (program_[reduce.body].type != Scalar::Real || !body) return;
         const auto count = static_cast<double>(size);
-        if (reduce.op == Reduction::Sum) facts_.range = rddlc::range_of_sum(*body, count);
-        if (reduce.op == Reduction::Product) facts_.range = range_of_product(*body, count);
-        if (reduce.op == Reduction::Minimum || reduce.op == Reduction::Maximum) facts_.range = body;
+        if (reduce.op == Reduction::Sum) properties_.range = rddlc::range_of_sum(*body, count);
+        if (reduce.op == Reduction::Product) properties_.range = range_of_product(*body, count);
+        if (reduce.op == Reduction::Minimum || reduce.op == Reduction::Maximum)
+            properties_.range = body;
     }
 
     std::optional<Range> range_of_sum(const Reduce& sum) const {
@@ -185,34 +187,34 @@ class Collector {
         std::vector<std::optional<Range>> ranges;
         for (NodeId parameter : sample.parameters) ranges.push_back(range(parameter));
         draw(!always_in_domain(sample.distribution, ranges));
-        facts_.range = range_of(sample.distribution, ranges);
+        properties_.range = range_of(sample.distribution, ranges);
     }
 
     void describe(Scalar, const Discrete& discrete) {
         draw(true);
-        facts_.range = Range{0, static_cast<double>(discrete.weights.size() - 1)};
+        properties_.range = Range{0, static_cast<double>(discrete.weights.size() - 1)};
     }
 
     void describe(Scalar, const DiscreteOver& discrete) {
-        facts_.range = Range{0, static_cast<double>(program_[discrete.variable].size - 1)};
+        properties_.range = Range{0, static_cast<double>(program_[discrete.variable].size - 1)};
         draw(true);
     }
 
     void describe(Scalar, const Fault&) {
-        facts_.may_fault = true;
-        facts_.uniform = false;
+        properties_.may_fault = true;
+        properties_.uniform = false;
     }
 
     // The cost of the body is in there already, once.
     void bind(VariableId variable, NodeId body, double times) {
-        std::erase(facts_.free_variables, variable);
-        facts_.cost += known_[body.index].cost * (times - 1);
+        std::erase(properties_.free_variables, variable);
+        properties_.cost += known_[body.index].cost * (times - 1);
     }
 
     void draw(bool may_fault) {
-        facts_.random = true;
-        facts_.uniform = false;
-        facts_.may_fault |= may_fault;
+        properties_.random = true;
+        properties_.uniform = false;
+        properties_.may_fault |= may_fault;
     }
 
     // ------------------------------------------------------------------- zeros and their signs
@@ -281,9 +283,9 @@ class Collector {
     bool is_constant(BufferId id) const { return program_[id].storage == Storage::Constant; }
 
     const Program& program_;
-    std::span<const Facts> known_;
-    TableFacts& tables_;
-    Facts facts_;
+    std::span<const Properties> known_;
+    TableProperties& tables_;
+    Properties properties_;
 };
 
 void append_roots(const Block& block, std::vector<NodeId>& roots);
@@ -322,35 +324,37 @@ std::vector<AnyDefinition*> definitions_in(AnyProgram& program) {
     return definitions;
 }
 
-bool draws(const Block& block, const std::vector<Facts>& facts) {
-    bool draws =
-        std::ranges::any_of(roots_of(block), [&](NodeId root) { return facts[root.index].random; });
+bool draws(const Block& block, const std::vector<Properties>& properties) {
+    bool draws = std::ranges::any_of(roots_of(block),
+                                     [&](NodeId root) { return properties[root.index].random; });
     for_each_statement<Call>(block, [&](const Call& call) { draws |= call.place.has_value(); });
     return draws;
 }
 
-bool draws(const std::vector<Definition>& definitions, const std::vector<Facts>& facts) {
-    return std::ranges::any_of(
-        definitions, [&](const Definition& definition) { return draws(definition.body, facts); });
+bool draws(const std::vector<Definition>& definitions, const std::vector<Properties>& properties) {
+    return std::ranges::any_of(definitions, [&](const Definition& definition) {
+        return draws(definition.body, properties);
+    });
 }
 
 }  // namespace
 
-Facts facts_of(const Program& program, const Node& node, std::span<const Facts> known,
-               TableFacts& tables) {
-    return Collector(program, known, tables).facts_of(node);
+Properties properties_of(const Program& program, const Node& node,
+                         std::span<const Properties> known, TableProperties& tables) {
+    return Collector(program, known, tables).properties_of(node);
 }
 
-std::vector<Facts> all_facts(const Program& program) {
-    TableFacts tables;
-    std::vector<Facts> facts;
-    facts.reserve(program.nodes.size());
-    for (const Node& node : program.nodes) facts.push_back(facts_of(program, node, facts, tables));
-    return facts;
+std::vector<Properties> all_properties(const Program& program) {
+    TableProperties tables;
+    std::vector<Properties> properties;
+    properties.reserve(program.nodes.size());
+    for (const Node& node : program.nodes)
+        properties.push_back(properties_of(program, node, properties, tables));
+    return properties;
 }
 
-bool is_cheap(const Facts& facts) {
-    return is_droppable(facts) && facts.cost <= cheap_cost;
+bool is_cheap(const Properties& properties) {
+    return is_droppable(properties) && properties.cost <= cheap_cost;
 }
 
 bool is_guarded_product(const Program& program, const Select& select) {
@@ -365,10 +369,10 @@ bool is_guarded_product(const Program& program, const Select& select) {
            std::ranges::find(product->operands, select.then_value) != product->operands.end();
 }
 
-bool is_lazy(const Program& program, const Select& select, const Facts& then_facts,
-             const Facts& else_facts) {
-    if (is_cheap(then_facts) && is_cheap(else_facts)) return false;
-    return !is_droppable(else_facts) || !is_guarded_product(program, select);
+bool is_lazy(const Program& program, const Select& select, const Properties& then_properties,
+             const Properties& else_properties) {
+    if (is_cheap(then_properties) && is_cheap(else_properties)) return false;
+    return !is_droppable(else_properties) || !is_guarded_product(program, select);
 }
 
 std::vector<NodeId> operands_of(const Node& node) {
@@ -531,18 +535,18 @@ std::vector<BufferId> reals_taken_for_moderate(const Program& program) {
 }
 
 bool is_stochastic(const Program& program) {
-    const std::vector<Facts> facts = all_facts(program);
+    const std::vector<Properties> properties = all_properties(program);
     const auto is_random = [&](const Computation& computation) {
-        return draws(computation.body, facts) || facts[computation.value.index].random;
+        return draws(computation.body, properties) || properties[computation.value.index].random;
     };
-    return draws(program.reset, facts) || draws(program.step, facts) || is_random(program.reward) ||
-           std::ranges::any_of(program.preconditions, is_random) ||
+    return draws(program.reset, properties) || draws(program.step, properties) ||
+           is_random(program.reward) || std::ranges::any_of(program.preconditions, is_random) ||
            std::ranges::any_of(program.invariants, is_random) ||
            std::ranges::any_of(program.terminations, is_random);
 }
 
 bool is_policy_stochastic(const Program& program) {
-    return program.policy && draws(program.policy->act, all_facts(program));
+    return program.policy && draws(program.policy->act, all_properties(program));
 }
 
 }  // namespace rddlc::ir

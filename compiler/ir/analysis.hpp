@@ -2,7 +2,7 @@
 #pragma once
 
 #include "ir/ir.hpp"
-#include "ir/table_facts.hpp"
+#include "ir/table_properties.hpp"
 #include "vocabulary/range.hpp"
 
 #include <cstdint>
@@ -12,8 +12,8 @@
 
 namespace rddlc::ir {
 
-// Facts about a node that hold wherever it is used.
-struct Facts {
+// Properties about a node that hold wherever it is used.
+struct Properties {
     bool may_fault = false;  // evaluating it may record a fault
     bool random = false;     // it draws
     // Depends on constants and loop indices only: equal in all lanes, known to the compiler. So an
@@ -30,25 +30,25 @@ struct Facts {
     std::vector<VariableId> free_variables;  // sorted; those not bound inside the node
 };
 
-// The facts of a node whose operands' facts are already in `known`.
-Facts facts_of(const Program& program, const Node& node, std::span<const Facts> known,
-               TableFacts& tables);
-// The facts of all nodes of the program, by NodeId::index.
-std::vector<Facts> all_facts(const Program& program);
+// The properties of a node whose operands' properties are already in `known`.
+Properties properties_of(const Program& program, const Node& node,
+                         std::span<const Properties> known, TableProperties& tables);
+// The properties of all nodes of the program, by NodeId::index.
+std::vector<Properties> all_properties(const Program& program);
 
 // Evaluating the node where it is not needed does no harm: it neither faults nor draws, and costs
 // no more than a handful of operations. A Select of two cheap branches needs no branch.
-bool is_cheap(const Facts& facts);
+bool is_cheap(const Properties& properties);
 // `t == 0 ? t : t * x`, which `ground` makes of products.
 bool is_guarded_product(const Program& program, const Select& select);
 // Should a Select evaluate only the branch it takes? Not where both are cheap; nor for a guarded
 // product: the test hardly ever holds, so x is evaluated in any
 // case, may be shared with others, and needs no branch.
-bool is_lazy(const Program& program, const Select& select, const Facts& then_facts,
-             const Facts& else_facts);
+bool is_lazy(const Program& program, const Select& select, const Properties& then_properties,
+             const Properties& else_properties);
 // The value may be forgotten without anybody noticing.
-inline bool is_droppable(const Facts& facts) {
-    return !facts.may_fault && !facts.random;
+inline bool is_droppable(const Properties& properties) {
+    return !properties.may_fault && !properties.random;
 }
 
 // The nodes that a node uses directly, place included, in evaluation order; the body of a binder

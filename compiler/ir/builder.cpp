@@ -150,7 +150,7 @@ std::size_t Builder::HashOfWords::operator()(const std::vector<std::uint64_t>& w
 }
 
 Builder::Builder(Program& program)
-    : program_(program), facts_(all_facts(program)), new_tables_(program) {
+    : program_(program), properties_(all_properties(program)), new_tables_(program) {
     known_.reserve(program.nodes.size());
     for (std::uint32_t index = 0; index < program.nodes.size(); ++index) {
         known_.emplace(Key(program.nodes[index]).words(), NodeId{index});
@@ -161,7 +161,7 @@ NodeId Builder::intern(Node node) {
     const NodeId next{static_cast<std::uint32_t>(program_.nodes.size())};
     const auto [entry, is_new] = known_.emplace(Key(node).words(), next);
     if (is_new) {
-        facts_.push_back(facts_of(program_, node, facts_, table_facts_));
+        properties_.push_back(properties_of(program_, node, properties_, table_properties_));
         program_.nodes.push_back(std::move(node));
     }
     return entry->second;
@@ -248,10 +248,11 @@ NodeId Builder::reduce(Reduction op, VariableId variable, NodeId body,
     if (const auto* form = std::get_if<Constant>(&program_[body].form)) {
         if (const auto value = fold(op, size, form->value)) return constant(*value);
     }
-    const bool fixed = !contains(facts(body).free_variables, variable);
+    const bool fixed = !contains(properties(body).free_variables, variable);
     if (fixed && is_idempotent(op)) return body;
     if (size == 1 && !is_argument(op)) return aggregated(op, body);
-    if (fixed && is_argument(op) && is_droppable(facts(body))) return constant(std::int64_t{0});
+    if (fixed && is_argument(op) && is_droppable(properties(body)))
+        return constant(std::int64_t{0});
     return intern({type, Reduce{op, variable, body, {}}});
 }
 

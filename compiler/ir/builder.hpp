@@ -23,7 +23,7 @@ class Builder {
     explicit Builder(Program& program);
 
     const Program& program() const { return program_; }
-    const Facts& facts(NodeId id) const { return facts_[id.index]; }
+    const Properties& properties(NodeId id) const { return properties_[id.index]; }
     NewTables& tables() { return new_tables_; }
 
     // All nans are one.
@@ -58,8 +58,8 @@ class Builder {
     NodeId intern(Node node);
 
     Program& program_;
-    std::vector<Facts> facts_;  // by NodeId::index
-    TableFacts table_facts_;
+    std::vector<Properties> properties_;  // by NodeId::index
+    TableProperties table_properties_;
     NewTables new_tables_;
     struct HashOfWords {
         std::size_t operator()(const std::vector<std::uint64_t>& words) const;

@@ -1,7 +1,8 @@
 // The price of each expression, in units of an addition, and the cost of a step.
 //
-// Passes compare prices to decide whether a rewrite pays (Facts::cost). `rddlc --stats` reports the
-// cost of a step before and after each pass, and a pass that makes a step cost more is undone.
+// Passes compare prices to decide whether a rewrite pays (Properties::cost). `rddlc --stats`
+// reports the cost of a step before and after each pass, and a pass that makes a step cost more is
+// undone.
 #pragma once
 
 #include "ir/ir.hpp"

@@ -64,9 +64,9 @@ bool begins_with(const Program& program, const std::vector<NodeId>& indices, con
                [&](VariableId variable, NodeId id) { return is_index_of(program, variable, id); });
 }
 
-bool is_same_for_all(const Facts& facts, const Nest& nest) {
-    return facts.uniform && std::ranges::none_of(nest.variables, [&](VariableId variable) {
-               return std::ranges::binary_search(facts.free_variables, variable);
+bool is_same_for_all(const Properties& properties, const Nest& nest) {
+    return properties.uniform && std::ranges::none_of(nest.variables, [&](VariableId variable) {
+               return std::ranges::binary_search(properties.free_variables, variable);
            });
 }
 

@@ -67,7 +67,7 @@ class Simplifier {
     }
     bool is_neutral_to(NodeId other, NodeId zero) const {
         return is(zero, std::int64_t{0}) || is(zero, -0.0) ||
-               (is(zero, 0.0) && builder_.facts(other).never_negative_zero);
+               (is(zero, 0.0) && builder_.properties(other).never_negative_zero);
     }
 
     // (x + 3) - 1 = x + 2 for ints, which wrap around.
@@ -75,7 +75,8 @@ class Simplifier {
         if (is_zero(b_)) return a_;
         if (const NodeId a = without_zero(a_); a != a_)
             return plus_zero(builder_.apply(Operator::Subtract, {a, b_}));
-        if (const NodeId b = without_zero(b_); b != b_ && builder_.facts(a_).never_negative_zero)
+        if (const NodeId b = without_zero(b_);
+            b != b_ && builder_.properties(a_).never_negative_zero)
             return builder_.apply(Operator::Subtract, {a_, b});
         const auto* sum = std::get_if<Apply>(&node(a_).form);
         if (!sum || sum->op != Operator::Add || !int_constant(b_)) return std::nullopt;
@@ -96,7 +97,7 @@ class Simplifier {
     std::optional<NodeId> extremum() {
         if (a_ == b_) return a_;
         const NodeId b = without_zero(b_);
-        const Facts& first = builder_.facts(a_);
+        const Properties& first = builder_.properties(a_);
         const bool hides_zeros =
             first.never_negative_zero && first.range &&
             (op_ == Operator::Maximum ? first.range->lower >= 0 : first.range->upper <= 0);
@@ -209,8 +210,8 @@ class Simplifier {
     }
 
     const Node& node(NodeId id) const { return builder_.program()[id]; }
-    bool may_fault(NodeId id) const { return builder_.facts(id).may_fault; }
-    bool droppable(NodeId id) const { return is_droppable(builder_.facts(id)); }
+    bool may_fault(NodeId id) const { return builder_.properties(id).may_fault; }
+    bool droppable(NodeId id) const { return is_droppable(builder_.properties(id)); }
 
     Builder& builder_;
     Operator op_;
@@ -246,7 +247,7 @@ std::optional<NodeId> simplify_select(Builder& builder, NodeId condition, NodeId
                                       NodeId else_value) {
     const Program& program = builder.program();
     if (const auto known = known_bool(program, condition)) return *known ? then_value : else_value;
-    if (then_value == else_value && is_droppable(builder.facts(condition))) return then_value;
+    if (then_value == else_value && is_droppable(builder.properties(condition))) return then_value;
 
     const auto a = known_bool(program, then_value);
     const auto b = known_bool(program, else_value);

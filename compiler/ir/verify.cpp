@@ -29,7 +29,7 @@ class Verifier {
     std::vector<std::string> complaints() && {
         buffers();
         if (pool_is_sound()) {
-            facts_ = all_facts(program_);
+            properties_ = all_properties(program_);
             nodes();
             reset();
             step();
@@ -268,7 +268,7 @@ class Verifier {
     bool right_operand_is_lazy_enough(const Apply& form) const {
         const bool connective =
             form.op == Operator::And || form.op == Operator::Or || form.op == Operator::Implies;
-        return !connective || !facts_[form.operands.back().index].may_fault;
+        return !connective || !properties_[form.operands.back().index].may_fault;
     }
     static bool fits(Operator op, Scalar operand, Scalar result) {
         const bool is_bool = operand == Scalar::Bool;
@@ -316,7 +316,7 @@ class Verifier {
     }
     bool are_uniform_ints(const Bounds& bounds) const {
         return type(bounds.begin) == Scalar::Int && type(bounds.end) == Scalar::Int &&
-               facts_[bounds.begin.index].uniform && facts_[bounds.end.index].uniform;
+               properties_[bounds.begin.index].uniform && properties_[bounds.end.index].uniform;
     }
     bool fits(const Sample& form, Scalar result) const {
         if (form.parameters.size() != arity_of(form.distribution)) return false;
@@ -565,7 +565,7 @@ class Verifier {
         const auto known = [&](VariableId id) {
             return scope.variables.contains(id);
         };
-        const bool bound = std::ranges::all_of(facts_[root.index].free_variables, known);
+        const bool bound = std::ranges::all_of(properties_[root.index].free_variables, known);
         require(bound, "a variable of '{}' is not bound", text_unless(bound, root));
         for (NodeId id : below(root)) {
             const Node& node = program_[id];
@@ -602,7 +602,7 @@ class Verifier {
     }
 
     const Program& program_;
-    std::vector<Facts> facts_;
+    std::vector<Properties> properties_;
     StorageSet computed_;                               // what the current block computes
     std::map<BufferId, int> defined_;                   // and in which body
     int body_ = 0;                                      // how many have been checked

@@ -13,7 +13,7 @@ namespace rddlc::planners {
 
 namespace {
 
-// Of courses, until something is better than doing nothing, where the user gives no other.
+// Of plans, until something is better than doing nothing, where the user gives no other.
 constexpr std::int64_t first_horizon = 40;
 // Correlations of noise, of one sample after the other.
 constexpr std::array<double, 4> mixture{0, 0.5, 0.8, 0.95};
@@ -24,13 +24,13 @@ std::size_t scenarios_of(const rddl_problem& problem, const CemOptions& options)
 }
 
 // So many that some populations fit into the budget, and into memory.
-std::size_t population_of(const Surroundings& surroundings, const CemOptions& options,
+std::size_t population_of(const PlannerContext& context, const CemOptions& options,
                           std::size_t scenarios) {
     constexpr std::int64_t least_populations = 5, least = 16;
     const auto lanes = static_cast<std::int64_t>(scenarios);
-    const std::int64_t each = solvers::bytes_per_environment(surroundings.simulator) * lanes;
+    const std::int64_t each = solvers::bytes_per_environment(context.simulator) * lanes;
     std::int64_t population = std::min<std::int64_t>(
-        options.population, std::max<std::int64_t>(1, surroundings.memory_limit / 4 / each));
+        options.population, std::max<std::int64_t>(1, context.memory_limit / 4 / each));
     if (options.budget.steps) {
         const std::int64_t row = options.horizon.value_or(first_horizon) * lanes;
         population = std::min(population,
@@ -40,7 +40,7 @@ std::size_t population_of(const Surroundings& surroundings, const CemOptions& op
     return static_cast<std::size_t>(population);
 }
 
-// Fewer draws of luck where a budget has no room for them.
+// Fewer draws of stream where a budget has no room for them.
 std::size_t affordable(std::size_t scenarios, const Budget& budget) {
     if (!budget.steps) return scenarios;
     return std::clamp<std::size_t>(static_cast<std::size_t>(*budget.steps) / 16, 1, scenarios);
@@ -48,49 +48,48 @@ std::size_t affordable(std::size_t scenarios, const Budget& budget) {
 
 }  // namespace
 
-Cem::Cem(const Surroundings& surroundings, const CemOptions& options)
-    : simulator_(surroundings.simulator),
+Cem::Cem(const PlannerContext& context, const CemOptions& options)
+    : simulator_(context.simulator),
       options_(options),
       space_(solvers::action_space(simulator_)),
       records_(simulator_),
       scenarios_(affordable(scenarios_of(*simulator_.problem, options), options.budget)),
       lanes_(0),
-      futures_(
-          simulator_,
-          static_cast<std::int64_t>(scenarios_ * population_of(surroundings, options, scenarios_)),
-          surroundings.horizon),
-      mending_(simulator_, space_, futures_.count()),
-      memories_(static_cast<std::size_t>(surroundings.environments)) {
+      futures_(simulator_,
+               static_cast<std::int64_t>(scenarios_ * population_of(context, options, scenarios_)),
+               context.horizon),
+      repair_(simulator_, space_, futures_.count()),
+      memories_(static_cast<std::size_t>(context.environments)) {
     lanes_ = static_cast<std::size_t>(futures_.count());
     population_ = lanes_ / scenarios_;
-    if (surroundings.base) {
-        base_.emplace(simulator_, *surroundings.base, futures_.count());
-        recorder_.emplace(simulator_, *surroundings.base, 1);
-        recording_.emplace(simulator_, 1, surroundings.horizon);
+    if (context.base) {
+        base_.emplace(simulator_, *context.base, futures_.count());
+        recorder_.emplace(simulator_, *context.base, 1);
+        recording_.emplace(simulator_, 1, context.horizon);
     }
     default_numbers_.resize(static_cast<std::size_t>(space_.real_count()));
     default_indices_.resize(static_cast<std::size_t>(space_.index_count()));
     read_action(space_, space_.defaults.data(), default_numbers_.data(), default_indices_.data());
 
-    courses_.resize(population_);
+    plans_.resize(population_);
     origins_.resize(population_);
     values_.resize(population_);
     errors_.resize(population_);
     order_.resize(population_);
     firsts_.resize(population_ * records_.record_size());
     for (std::size_t k = 0; k < lanes_; ++k)
-        course_of_lane_.push_back(static_cast<std::uint32_t>(k / scenarios_));
+        plan_of_lane_.push_back(static_cast<std::uint32_t>(k / scenarios_));
     compared_of_lane_.resize(lanes_);
-    lucks_.resize(lanes_);
+    streams_.resize(lanes_);
     rows_.resize(lanes_ * static_cast<std::size_t>(space_.column_count));
     actions_.resize(lanes_ * records_.record_size());
     by_policy_.resize(lanes_);
 }
 
-Cem::Memory& Cem::memory_of(const Situation& situation) {
-    auto& memory = memories_[static_cast<std::size_t>(situation.place)];
+Cem::Memory& Cem::memory_of(const Decision& decision) {
+    auto& memory = memories_[static_cast<std::size_t>(decision.place)];
     if (!memory) memory.emplace(space_, Spread{options_.spread});
-    if (situation.step == 0 || memory->horizon == 0) {
+    if (decision.step == 0 || memory->horizon == 0) {
         memory->horizon = options_.horizon.value_or(first_horizon);
         memory->distribution.restart(memory->horizon);
         memory->kept_count = 0;
@@ -100,13 +99,13 @@ Cem::Memory& Cem::memory_of(const Situation& situation) {
     return *memory;
 }
 
-// Courses get so many steps: those that come new do nothing.
+// Plans get so many steps: those that come new do nothing.
 void Cem::set_steps(std::int64_t steps) {
     steps_ = steps;
     const auto rows = static_cast<std::size_t>(steps);
-    for (Course& course : courses_) {
-        course.numbers.resize(rows * default_numbers_.size());
-        course.indices.resize(rows * default_indices_.size());
+    for (Plan& plan : plans_) {
+        plan.numbers.resize(rows * default_numbers_.size());
+        plan.indices.resize(rows * default_indices_.size());
     }
 }
 
@@ -123,100 +122,101 @@ void fill_rows(std::vector<Number>& all, std::size_t first, std::size_t count,
 
 }  // namespace
 
-// The course gets so many steps; those from `first` on do nothing.
-void Cem::end_by_noop(Course& course, std::int64_t first, std::int64_t steps) const {
+// The plan gets so many steps; those from `first` on do nothing.
+void Cem::end_by_noop(Plan& plan, std::int64_t first, std::int64_t steps) const {
     const auto begin = static_cast<std::size_t>(first), end = static_cast<std::size_t>(steps);
-    fill_rows(course.numbers, begin, end, default_numbers_);
-    fill_rows(course.indices, begin, end, default_indices_);
+    fill_rows(plan.numbers, begin, end, default_numbers_);
+    fill_rows(plan.indices, begin, end, default_indices_);
 }
 
-void Cem::make_population(Memory& memory, const Situation& situation, Luck& luck, Meter& meter) {
+void Cem::make_population(Memory& memory, const Decision& decision, RandomStream& stream,
+                          BudgetMeter& meter) {
     std::size_t next = 0;
-    const auto add = [&](Origin origin) -> Course* {
+    const auto add = [&](Origin origin) -> Plan* {
         if (next == population_) return nullptr;
         origins_[next] = origin;
-        return &courses_[next++];
+        return &plans_[next++];
     };
     for (std::size_t k = 0; k < memory.kept_count; ++k)
-        if (Course* const course = add(Origin::Kept)) {
-            course->numbers = memory.kept[k].numbers;
-            course->indices = memory.kept[k].indices;
+        if (Plan* const plan = add(Origin::Kept)) {
+            plan->numbers = memory.kept[k].numbers;
+            plan->indices = memory.kept[k].indices;
         }
     if (base_)
-        if (Course* const course = add(Origin::Policy)) record_policy(situation, *course, meter);
-    if (Course* const course = add(Origin::Noop)) end_by_noop(*course, 0, steps_);
-    if (Course* const course = add(Origin::Middle)) memory.distribution.middle(*course);
+        if (Plan* const plan = add(Origin::Policy)) record_policy(decision, *plan, meter);
+    if (Plan* const plan = add(Origin::Noop)) end_by_noop(*plan, 0, steps_);
+    if (Plan* const plan = add(Origin::Middle)) memory.distribution.middle(*plan);
     memory.distribution.prepare();
-    for (std::size_t sample = 0; Course* const course = add(Origin::Sample); ++sample)
+    for (std::size_t sample = 0; Plan* const plan = add(Origin::Sample); ++sample)
         memory.distribution.draw(
-            luck,
+            stream,
             options_.correlation < 0 ? mixture[sample % mixture.size()] : options_.correlation,
-            *course);
+            *plan);
 }
 
-void Cem::record_policy(const Situation& situation, Course& course, Meter& meter) {
+void Cem::record_policy(const Decision& decision, Plan& plan, BudgetMeter& meter) {
     const auto rows = static_cast<std::size_t>(steps_);
-    end_by_noop(course, 0, steps_);
-    recording_->begin(situation.batch, situation.place, std::span(lucks_).first(1));
-    recorder_->begin(situation.episode, situation.step, situation.horizon,
-                     std::span(lucks_).first(1));
+    end_by_noop(plan, 0, steps_);
+    recording_->begin(decision.batch, decision.place, std::span(streams_).first(1));
+    recorder_->begin(decision.episode, decision.step, decision.horizon,
+                     std::span(streams_).first(1));
     constexpr std::uint8_t wanted[] = {1};
     for (std::size_t t = 0; t < rows && recording_->any_running(); ++t) {
-        recorder_->act(*recording_, wanted, actions_.data(), situation.stops);
+        recorder_->act(*recording_, wanted, actions_.data(), decision.stops);
         records_.read(actions_.data(), rows_.data());
-        read_action(space_, rows_.data(), course.numbers.data() + t * default_numbers_.size(),
-                    course.indices.data() + t * default_indices_.size());
+        read_action(space_, rows_.data(), plan.numbers.data() + t * default_numbers_.size(),
+                    plan.indices.data() + t * default_indices_.size());
         recording_->step(actions_.data());
         meter.add_steps(1);
     }
 }
 
-// New luck, the same for all courses: what differs is theirs.
-void Cem::draw_lucks(Luck& luck) {
+// New stream, the same for all plans: what differs is theirs.
+void Cem::draw_streams(RandomStream& stream) {
     for (std::size_t k = 0; k < lanes_; ++k)
-        lucks_[k] = k < scenarios_ ? luck.bits() : lucks_[k - scenarios_];
+        streams_[k] = k < scenarios_ ? stream.bits() : streams_[k - scenarios_];
 }
 
-void Cem::write_actions(std::span<const std::uint32_t> courses, std::int64_t step) {
+void Cem::write_actions(std::span<const std::uint32_t> plans, std::int64_t step) {
     const auto columns = static_cast<std::size_t>(space_.column_count);
     const auto row = static_cast<std::size_t>(step);
     for (std::size_t k = 0; k < lanes_; ++k) {
         float* const values = rows_.data() + k * columns;
-        if (k > 0 && courses[k] == courses[k - 1]) {
+        if (k > 0 && plans[k] == plans[k - 1]) {
             std::copy_n(values - columns, columns, values);
             continue;
         }
-        const Course& course = courses_[courses[k]];
-        solvers::write_action(space_, course.numbers.data() + row * default_numbers_.size(),
-                              course.indices.data() + row * default_indices_.size(), values);
+        const Plan& plan = plans_[plans[k]];
+        solvers::write_action(space_, plan.numbers.data() + row * default_numbers_.size(),
+                              plan.indices.data() + row * default_indices_.size(), values);
     }
 }
 
-std::int64_t Cem::play(const Situation& situation, std::span<const std::uint32_t> courses,
-                       std::int64_t steps, Meter& meter) {
+std::int64_t Cem::play(const Decision& decision, std::span<const std::uint32_t> plans,
+                       std::int64_t steps, BudgetMeter& meter) {
     const auto columns = static_cast<std::size_t>(space_.column_count);
     const std::size_t size = records_.record_size();
     const bool has_policy = std::ranges::find(by_policy_, 1) != by_policy_.end();
-    futures_.begin(situation.batch, situation.place, lucks_);
-    if (has_policy) base_->begin(situation.episode, situation.step, situation.horizon, lucks_);
+    futures_.begin(decision.batch, decision.place, streams_);
+    if (has_policy) base_->begin(decision.episode, decision.step, decision.horizon, streams_);
     for (std::int64_t t = 0; t < steps && futures_.any_running(); ++t) {
-        write_actions(courses, t);
+        write_actions(plans, t);
         const bool needs_records = t == 0 || has_policy || space_.may_be_illegal;
         if (needs_records)
             for (std::size_t k = 0; k < lanes_; ++k)
                 records_.write(rows_.data() + k * columns, actions_.data() + k * size);
         if (has_policy) {
-            base_->act(futures_, by_policy_, actions_.data(), situation.stops);
+            base_->act(futures_, by_policy_, actions_.data(), decision.stops);
             for (std::size_t k = 0; k < lanes_; ++k)
                 if (by_policy_[k])
                     records_.read(actions_.data() + k * size, rows_.data() + k * columns);
         }
         if (space_.may_be_illegal)
-            solvers::mend_actions(simulator_, space_, records_, futures_.batch(), rows_.data(),
-                                  actions_.data(), mending_);
+            solvers::repair_actions(simulator_, space_, records_, futures_.batch(), rows_.data(),
+                                    actions_.data(), repair_);
         if (t == 0)
             for (std::size_t k = 0; k < lanes_; ++k)
-                std::copy_n(actions_.data() + k * size, size, firsts_.data() + courses[k] * size);
+                std::copy_n(actions_.data() + k * size, size, firsts_.data() + plans[k] * size);
         if (t % 4 == 0 && meter.is_late()) return t;
         if (needs_records)
             futures_.step(actions_.data());
@@ -251,7 +251,7 @@ void Cem::refit(Memory& memory) {
         const auto most =
             static_cast<std::size_t>(std::ceil(options_.elites * static_cast<double>(population_)));
         for (std::size_t k = 0; k < most && values_[order_[k]] > median; ++k) {
-            fitted_.push_back(&courses_[order_[k]]);
+            fitted_.push_back(&plans_[order_[k]]);
             weights_.push_back(1);
         }
     } else {
@@ -262,7 +262,7 @@ void Cem::refit(Memory& memory) {
         const double scale = std::max(
             options_.temperature * spread.error * std::sqrt(static_cast<double>(finite)), 1e-300);
         for (std::size_t k = 0; k < static_cast<std::size_t>(finite); ++k) {
-            fitted_.push_back(&courses_[order_[k]]);
+            fitted_.push_back(&plans_[order_[k]]);
             weights_.push_back(std::exp((values_[order_[k]] - best) / scale));
         }
     }
@@ -274,13 +274,13 @@ void Cem::refit(Memory& memory) {
 void Cem::keep_best(Memory& memory) {
     memory.kept_count = std::min(memory.kept.size(), population_);
     for (std::size_t k = 0; k < memory.kept_count; ++k) {
-        memory.kept[k].numbers = courses_[order_[k]].numbers;
-        memory.kept[k].indices = courses_[order_[k]].indices;
+        memory.kept[k].numbers = plans_[order_[k]].numbers;
+        memory.kept[k].indices = plans_[order_[k]].indices;
         memory.kept_values[k] = {values_[order_[k]], errors_[order_[k]]};
     }
 }
 
-// Of a population that was not played to its end only those courses count that were kept before.
+// Of a population that was not played to its end only those plans count that were kept before.
 void Cem::rank_kept(const Memory& memory) {
     std::iota(order_.begin(), order_.end(), std::size_t{0});
     for (std::size_t c = 0; c < population_; ++c) {
@@ -299,30 +299,30 @@ bool Cem::needs_more_steps(const Memory& memory, std::int64_t left) const {
     return false;
 }
 
-const std::byte* Cem::first_action(std::size_t course) const {
-    return firsts_.data() + course * records_.record_size();
+const std::byte* Cem::first_action(std::size_t plan) const {
+    return firsts_.data() + plan * records_.record_size();
 }
 
-void Cem::decide(const Situation& situation, std::byte* action, Thoughts* thoughts) {
-    Luck luck(options_.seed, situation.episode, situation.step);
-    Meter meter(options_.budget, situation.stops);
-    Memory& memory = memory_of(situation);
+void Cem::decide(const Decision& decision, std::byte* action, Explanation* explanation) {
+    RandomStream stream(options_.seed, decision.episode, decision.step);
+    BudgetMeter meter(options_.budget, decision.stops);
+    Memory& memory = memory_of(decision);
     const bool compares = simulator_.problem->stochastic || base_;
     const auto lanes = static_cast<std::int64_t>(lanes_);
     const auto comparison = [&](std::int64_t depth) {  // its steps
-        const bool has_tail = base_ && situation.left != no_end;
-        return compares ? lanes * (has_tail ? situation.left : depth) : 0;
+        const bool has_tail = base_ && decision.left != no_end;
+        return compares ? lanes * (has_tail ? decision.left : depth) : 0;
     };
     std::int64_t depth = 0;
     double seconds = 0;
     do {
         const double before = meter.seconds();
         set_steps(memory.horizon);
-        draw_lucks(luck);
-        make_population(memory, situation, luck, meter);
+        draw_streams(stream);
+        make_population(memory, decision, stream, meter);
         const std::int64_t affordable_steps = std::max<std::int64_t>(1, meter.steps_left() / lanes);
-        const std::int64_t wanted = std::min({situation.left, memory.horizon, affordable_steps});
-        const std::int64_t made = play(situation, course_of_lane_, wanted, meter);
+        const std::int64_t wanted = std::min({decision.left, memory.horizon, affordable_steps});
+        const std::int64_t made = play(decision, plan_of_lane_, wanted, meter);
         if (made < wanted && depth > 0) {
             rank_kept(memory);
             break;
@@ -334,8 +334,8 @@ void Cem::decide(const Situation& situation, std::byte* action, Thoughts* though
         keep_best(memory);
         meter.add_iterations();
         seconds = meter.seconds() - before;
-        if (needs_more_steps(memory, situation.left)) {
-            memory.horizon = std::min({2 * memory.horizon, situation.left, longest_lookahead});
+        if (needs_more_steps(memory, decision.left)) {
+            memory.horizon = std::min({2 * memory.horizon, decision.left, longest_lookahead});
             memory.distribution.extend(memory.horizon);
             for (std::size_t k = 0; k < memory.kept_count; ++k)
                 end_by_noop(memory.kept[k], steps_, memory.horizon);
@@ -346,17 +346,17 @@ void Cem::decide(const Situation& situation, std::byte* action, Thoughts* though
                   static_cast<std::int64_t>(scenarios_)};
     if (compares && depth > 0 && !meter.is_late() && meter.steps_left() >= comparison(depth)) {
         steps_ = std::min(steps_, depth);
-        chosen = compare(situation, luck, meter);
-        const auto place = std::ranges::find(order_, chosen.course);
+        chosen = compare(decision, stream, meter);
+        const auto place = std::ranges::find(order_, chosen.plan);
         std::rotate(order_.begin(), place, place + 1);
         keep_best(memory);
     }
-    std::copy_n(first_action(chosen.course), records_.record_size(), action);
-    if (thoughts) {
-        thoughts->depth = depth;
-        thoughts->iterations = meter.iterations();
-        thoughts->steps = meter.steps();
-        note_candidates(*thoughts, chosen);
+    std::copy_n(first_action(chosen.plan), records_.record_size(), action);
+    if (explanation) {
+        explanation->depth = depth;
+        explanation->iterations = meter.iterations();
+        explanation->steps = meter.steps();
+        note_candidates(*explanation, chosen);
     }
     move_on(memory);
 }
@@ -365,12 +365,12 @@ void Cem::decide(const Situation& situation, std::byte* action, Thoughts* though
 void Cem::move_on(Memory& memory) {
     memory.distribution.shift();
     for (std::size_t k = 0; k < memory.kept_count; ++k) {
-        Course& course = memory.kept[k];
-        std::shift_left(course.numbers.begin(), course.numbers.end(),
+        Plan& plan = memory.kept[k];
+        std::shift_left(plan.numbers.begin(), plan.numbers.end(),
                         static_cast<std::ptrdiff_t>(default_numbers_.size()));
-        std::shift_left(course.indices.begin(), course.indices.end(),
+        std::shift_left(plan.indices.begin(), plan.indices.end(),
                         static_cast<std::ptrdiff_t>(default_indices_.size()));
-        end_by_noop(course, memory.horizon - 1, memory.horizon);
+        end_by_noop(plan, memory.horizon - 1, memory.horizon);
     }
 }
 

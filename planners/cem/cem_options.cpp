@@ -11,15 +11,15 @@ solvers::OptionTable<O> make_cem_table() {
     solvers::OptionTable<O> table = common_options<O>(
         "Populations of a decision",
         "Steps that are looked ahead (auto: longer until something is better than no-op)",
-        "A learned policy, or another one, whose actions are among the first courses; what "
+        "A learned policy, or another one, whose actions are among the first plans; what "
         "follows the horizon is played by it");
     solvers::OptionTable<O> own = {
         number_option<O, int>(
-            {"population", "population", "N", "Courses of actions at a time (256)"},
+            {"population", "population", "N", "Plans of actions at a time (256)"},
             [](auto& o) -> auto& { return o.population; }, 4, 1 << 20),
         number_option<O, int>(
             {"scenarios", "scenarios", "N",
-             "Draws of luck that each course is played with, the same for all (4, or 1 where "
+             "Draws of stream that each plan is played with, the same for all (4, or 1 where "
              "nothing is drawn at random)"},
             [](auto& o) -> auto& { return o.scenarios; }, 1, 1 << 16),
         number_option<O, double>(
@@ -32,17 +32,17 @@ solvers::OptionTable<O> make_cem_table() {
             [](auto& o) -> auto& { return o.correlation; }, -1.0, 0.999),
         number_option<O, double>(
             {"spread", "spread", "X",
-             "Deviation of the first courses, in half widths of the bounds (1)"},
+             "Deviation of the first plans, in half widths of the bounds (1)"},
             [](auto& o) -> auto& { return o.spread; }, 0.001, 100.0),
         number_option<O, double>(
             {"memory", "memory", "PART", "Part of the distribution before that is kept (0.2)"},
             [](auto& o) -> auto& { return o.memory; }, 0.0, 0.99),
         number_option<O, int>(
-            {"kept", "kept", "N", "The best courses, which come again, also in the next step (8)"},
+            {"kept", "kept", "N", "The best plans, which come again, also in the next step (8)"},
             [](auto& o) -> auto& { return o.kept; }, 1, 1 << 16),
         solvers::choice_option<O, Weights>(
             {"weights", "weights", "HOW",
-             "Of the courses, in the next distribution: elites (default), all alike; mppi: all, "
+             "Of the plans, in the next distribution: elites (default), all alike; mppi: all, "
              "by the exponential of their return"},
             [](auto& o) -> auto& { return o.weights; },
             {{"elites", Weights::Elites}, {"mppi", Weights::Mppi}}),

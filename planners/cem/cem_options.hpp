@@ -12,12 +12,12 @@ enum class Weights { Elites, Mppi };
 
 struct CemOptions : CommonOptions {
     int population = 256;
-    std::optional<int> scenarios;  // draws of luck for each course of actions
+    std::optional<int> scenarios;  // draws of stream for each plan of actions
     double elites = 0.1;           // the part of the population that the next one is drawn like
     double correlation = -1;       // of noise between steps; below 0: a mixture
     double spread = 1;             // of the first population, in half widths of bounds
     double memory = 0.2;           // of a distribution for the one before it
-    int kept = 8;                  // of the best courses, that come again
+    int kept = 8;                  // of the best plans, that come again
     Weights weights = Weights::Elites;
     double temperature = 0.2;  // of mppi, in deviations of the returns
 };

@@ -1,4 +1,4 @@
-// The end of a decision of plan:cem: the best courses are compared with new luck.
+// The end of a decision of plan:cem: the best plans are compared with new stream.
 #include "planners/cem/cem.hpp"
 #include "planners/cem/mean_and_error.hpp"
 
@@ -9,27 +9,27 @@ namespace rddlc::planners {
 
 namespace {
 
-// Courses whose comparison ends a decision, besides no-op, the policy and the middle.
+// Plans whose comparison ends a decision, besides no-op, the policy and the middle.
 constexpr std::size_t most_compared = 8;
-// Standard errors by which a course has to be better than the policy to be taken in its place.
+// Standard errors by which a plan has to be better than the policy to be taken in its place.
 constexpr double doubt = 1;
 
 }  // namespace
 
-// After the courses comes what the policy does.
-void Cem::play_tail(const Situation& situation, Meter& meter) {
-    if (!base_ || situation.left == no_end) return;
+// After the plans comes what the policy does.
+void Cem::play_tail(const Decision& decision, BudgetMeter& meter) {
+    if (!base_ || decision.left == no_end) return;
     std::ranges::fill(by_policy_, 1);
-    for (std::int64_t t = steps_; t < situation.left && futures_.any_running(); ++t) {
+    for (std::int64_t t = steps_; t < decision.left && futures_.any_running(); ++t) {
         if (meter.is_late()) return;
-        base_->act(futures_, by_policy_, actions_.data(), situation.stops);
+        base_->act(futures_, by_policy_, actions_.data(), decision.stops);
         futures_.step(actions_.data());
         meter.add_steps(futures_.stepped());
     }
 }
 
-// The best courses, no-op, the policy and the middle, with luck that none of them was chosen by.
-Cem::Choice Cem::compare(const Situation& situation, Luck& luck, Meter& meter) {
+// The best plans, no-op, the policy and the middle, with stream that none of them was chosen by.
+Cem::Choice Cem::compare(const Decision& decision, RandomStream& stream, BudgetMeter& meter) {
     compared_.assign(order_.begin(), order_.begin() + static_cast<std::ptrdiff_t>(
                                                           std::min(most_compared, population_)));
     for (std::size_t c = 0; c < population_; ++c)
@@ -45,11 +45,11 @@ Cem::Choice Cem::compare(const Situation& situation, Luck& luck, Meter& meter) {
         const std::size_t c = compared_[k % count];
         compared_of_lane_[k] = static_cast<std::uint32_t>(c);
         by_policy_[k] = origins_[c] == Origin::Policy;
-        lucks_[k] = k % count == 0 ? luck.bits() : lucks_[k - 1];
+        streams_[k] = k % count == 0 ? stream.bits() : streams_[k - 1];
         if (by_policy_[k]) policy = k % count;
     }
-    const bool is_done = play(situation, compared_of_lane_, steps_, meter) == steps_;
-    if (is_done) play_tail(situation, meter);
+    const bool is_done = play(decision, compared_of_lane_, steps_, meter) == steps_;
+    if (is_done) play_tail(decision, meter);
     std::ranges::fill(by_policy_, 0);
     if (!is_done || meter.is_late()) return unsure;
 
@@ -78,24 +78,23 @@ Cem::Choice Cem::compare(const Situation& situation, Luck& luck, Meter& meter) {
             static_cast<std::int64_t>(draws)};
 }
 
-void Cem::note_candidates(Thoughts& thoughts, const Choice& chosen) const {
+void Cem::note_candidates(Explanation& explanation, const Choice& chosen) const {
     constexpr const char* names[] = {"kept", "policy", "noop", "middle", "sample"};
     constexpr std::size_t most = 5;
-    const auto add = [&](std::size_t course, std::int64_t trials) {
-        const std::byte* const action = first_action(course);
-        thoughts.candidates.push_back({names[static_cast<std::size_t>(origins_[course])],
-                                       {action, action + records_.record_size()},
-                                       values_[course],
-                                       errors_[course],
-                                       trials});
+    const auto add = [&](std::size_t plan, std::int64_t trials) {
+        const std::byte* const action = first_action(plan);
+        explanation.candidates.push_back({names[static_cast<std::size_t>(origins_[plan])],
+                                          {action, action + records_.record_size()},
+                                          values_[plan],
+                                          errors_[plan],
+                                          trials});
     };
-    add(chosen.course, chosen.trials);
-    thoughts.candidates.front().value = chosen.value;
+    add(chosen.plan, chosen.trials);
+    explanation.candidates.front().value = chosen.value;
     for (std::size_t k = 0; k < population_; ++k) {
-        const std::size_t course = order_[k];
-        const bool is_special =
-            origins_[course] != Origin::Sample && origins_[course] != Origin::Kept;
-        if (course != chosen.course && (k < most || is_special)) add(course, chosen.trials);
+        const std::size_t plan = order_[k];
+        const bool is_special = origins_[plan] != Origin::Sample && origins_[plan] != Origin::Kept;
+        if (plan != chosen.plan && (k < most || is_special)) add(plan, chosen.trials);
     }
 }
 

@@ -1,7 +1,7 @@
 // Options that all planners have.
 #pragma once
 
-#include "planners/simulation/meter.hpp"
+#include "planners/simulation/budget.hpp"
 #include "solvers/options/options.hpp"
 
 #include <cstdint>

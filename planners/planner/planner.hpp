@@ -19,7 +19,7 @@ namespace rddlc::planners {
 inline constexpr std::int64_t no_end = std::numeric_limits<std::int64_t>::max();
 
 // The environment that an action is wanted for.
-struct Situation {
+struct Decision {
     const rddl_batch* batch;
     std::int64_t place;  // in the batch
     std::int64_t episode;
@@ -33,7 +33,7 @@ struct Situation {
 };
 
 // What a decision was made by.
-struct Thoughts {
+struct Explanation {
     struct Candidate {
         std::string name;  // "mean", "noop", ...
         std::vector<std::byte> action;
@@ -52,13 +52,13 @@ struct Thoughts {
 class Planner {
   public:
     virtual ~Planner() = default;
-    // Writes the action record. Where step is 0 the episode of this place begins. Thoughts are
-    // added to `thoughts`, unless it is NULL.
-    virtual void decide(const Situation& situation, std::byte* action, Thoughts* thoughts) = 0;
+    // Writes the action record. Where step is 0 the episode of this place begins. Explanation are
+    // added to `explanation`, unless it is NULL.
+    virtual void decide(const Decision& decision, std::byte* action, Explanation* explanation) = 0;
 };
 
 // What every planner is made with.
-struct Surroundings {
+struct PlannerContext {
     const rddl_simulator& simulator;
     std::int64_t environments;  // that it acts in
     std::int64_t horizon;       // of batches: 0: the instance's; RDDL_NO_HORIZON: none

@@ -30,7 +30,7 @@ using Words = std::vector<std::pair<std::string, std::string>>;  // key and valu
 struct Chosen {
     std::string name;
     CommonOptions common;
-    std::function<std::unique_ptr<Planner>(const Surroundings&)> make;
+    std::function<std::unique_ptr<Planner>(const PlannerContext&)> make;
 };
 
 struct Entry {
@@ -67,8 +67,8 @@ Entry entry(const std::string& name, const std::string& summary, bool needs_poli
     made.read = [name, table](const Words& words) {
         Options options;
         for (const auto& [key, value] : words) set_option(name, table(), key, value, options);
-        return Chosen{name, options, [options](const Surroundings& surroundings) {
-                          return std::make_unique<ItsPlanner>(surroundings, options);
+        return Chosen{name, options, [options](const PlannerContext& context) {
+                          return std::make_unique<ItsPlanner>(context, options);
                       }};
     };
     return made;
@@ -77,7 +77,7 @@ Entry entry(const std::string& name, const std::string& summary, bool needs_poli
 const std::vector<Entry>& entries() {
     static const std::vector<Entry> all = {
         entry<CemOptions, Cem>("cem",
-                               "the best of many courses of actions, sampled again and again; for "
+                               "the best of many plans of actions, sampled again and again; for "
                                "reals, ints, bools and objects",
                                false, cem_option_table),
         entry<RolloutOptions, Rollout>("rollout",
@@ -164,22 +164,22 @@ class PlanningActor {
         for (std::size_t i = 0; i < decision.running.size(); ++i) {
             if (!decision.running[i]) continue;
             if (solvers::is_stopped(decision.stops)) return;
-            Situation situation{decision.batch,
-                                static_cast<std::int64_t>(i),
-                                decision.episodes[i],
-                                decision.steps[i],
-                                no_end,
-                                decision.horizon,
-                                decision.stops};
-            if (horizon > 0) situation.left = std::max<std::int64_t>(1, horizon - situation.step);
+            Decision decision{decision.batch,
+                              static_cast<std::int64_t>(i),
+                              decision.episodes[i],
+                              decision.steps[i],
+                              no_end,
+                              decision.horizon,
+                              decision.stops};
+            if (horizon > 0) decision.left = std::max<std::int64_t>(1, horizon - decision.step);
             if (base_)
-                situation.base_action =
+                decision.base_action =
                     base_actions_.data() + i * static_cast<std::size_t>(problem.action_size);
-            Thoughts thoughts{situation.episode, situation.step};
-            planner_->decide(situation,
+            Explanation explanation{decision.episode, decision.step};
+            planner_->decide(decision,
                              decision.actions + i * static_cast<std::size_t>(problem.action_size),
-                             settings_.explain ? &thoughts : nullptr);
-            if (settings_.explain) settings_.explain(thoughts);
+                             settings_.explain ? &explanation : nullptr);
+            if (settings_.explain) settings_.explain(explanation);
         }
     }
 

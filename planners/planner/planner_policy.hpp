@@ -37,7 +37,7 @@ struct PolicySettings {
     // The base policy of that name.
     std::function<solvers::Policy(const std::string& name)> named;
     // Takes what each decision was made by, from all threads; may be empty.
-    std::function<void(const Thoughts&)> explain = {};
+    std::function<void(const Explanation&)> explain = {};
 };
 
 // Throws a Failure where the planner does not take the problem. The simulator must outlive it.

@@ -24,31 +24,31 @@ double Rollout::Candidate::error() const {
     return std::sqrt(std::max(0.0, squares / n - mean() * mean()) / (n - 1));
 }
 
-Rollout::Rollout(const Surroundings& surroundings, const RolloutOptions& options)
-    : simulator_(surroundings.simulator),
+Rollout::Rollout(const PlannerContext& context, const RolloutOptions& options)
+    : simulator_(context.simulator),
       options_(options),
       space_(solvers::action_space(simulator_)),
       records_(simulator_),
       action_size_(static_cast<std::size_t>(simulator_.problem->action_size)),
       actions_(FiniteActions::of(simulator_, space_, static_cast<std::size_t>(options.actions))),
-      continuations_(simulator_, lanes_of(options), surroundings.horizon),
-      policy_(simulator_, *surroundings.base, static_cast<std::int64_t>(continuations_.lanes())),
+      continuations_(simulator_, lanes_of(options), context.horizon),
+      policy_(simulator_, *context.base, static_cast<std::int64_t>(continuations_.lanes())),
       random_(simulator_, solvers::random_policy(simulator_, options.seed), options.actions) {}
 
-void Rollout::find_candidates(const Situation& situation, Luck& luck) {
+void Rollout::find_candidates(const Decision& decision, RandomStream& stream) {
     candidates_.clear();
-    candidates_.push_back({situation.base_action});
+    candidates_.push_back({decision.base_action});
     const auto add = [&](const std::byte* action) {
         for (const Candidate& known : candidates_)
             if (std::memcmp(known.action, action, action_size_) == 0) return;
         candidates_.push_back({action});
     };
     if (actions_) {
-        actions_->find_legal(situation.batch, situation.place, legal_);
+        actions_->find_legal(decision.batch, decision.place, legal_);
         for (std::size_t a = 0; a < actions_->count(); ++a)
             if (legal_[a]) add(actions_->record(a));
     } else {
-        draw_actions(situation, luck);
+        draw_actions(decision, stream);
         for (std::size_t a = 0; a * action_size_ < drawn_.size(); ++a)
             add(drawn_.data() + a * action_size_);
     }
@@ -57,22 +57,22 @@ void Rollout::find_candidates(const Situation& situation, Luck& luck) {
 }
 
 // No-op, random actions, and mixtures of these with the policy's.
-void Rollout::draw_actions(const Situation& situation, Luck& luck) {
+void Rollout::draw_actions(const Decision& decision, RandomStream& stream) {
     const auto count = static_cast<std::size_t>(options_.actions);
     if (!sampling_) {
-        sampling_.emplace(simulator_, options_.actions, situation.horizon);
-        mending_ = solvers::MendingRoom(simulator_, space_, options_.actions);
+        sampling_.emplace(simulator_, options_.actions, decision.horizon);
+        repair_ = solvers::RepairBuffers(simulator_, space_, options_.actions);
         drawn_.resize(count * action_size_);
         rows_.resize(count * static_cast<std::size_t>(space_.column_count));
         base_row_.resize(static_cast<std::size_t>(space_.column_count));
     }
-    lucks_.clear();
-    for (std::size_t k = 0; k < count; ++k) lucks_.push_back(luck.bits());
-    sampling_->begin(situation.batch, situation.place, lucks_);
-    random_.begin(situation.episode, situation.step, situation.horizon, lucks_);
+    streams_.clear();
+    for (std::size_t k = 0; k < count; ++k) streams_.push_back(stream.bits());
+    sampling_->begin(decision.batch, decision.place, streams_);
+    random_.begin(decision.episode, decision.step, decision.horizon, streams_);
     const std::vector<std::uint8_t> all(count, 1);
-    random_.act(*sampling_, all, drawn_.data(), situation.stops);
-    records_.read(situation.base_action, base_row_.data());
+    random_.act(*sampling_, all, drawn_.data(), decision.stops);
+    records_.read(decision.base_action, base_row_.data());
     constexpr float shares[] = {1, 0.5f, 0.2f, 0.05f};  // of what is random
     for (std::size_t k = 0; k < count; ++k) {
         float* const row = rows_.data() + k * base_row_.size();
@@ -85,19 +85,18 @@ void Rollout::draw_actions(const Situation& situation, Luck& luck) {
         }
         if (share < 1 && space_.picks == 0)
             for (const solvers::CategoryHead& head : space_.categories)
-                if (head.group.empty() && luck.unit() >= static_cast<double>(share))
+                if (head.group.empty() && stream.unit() >= static_cast<double>(share))
                     row[head.column] = base_row_[static_cast<std::size_t>(head.column)];
         records_.write(row, drawn_.data() + k * action_size_);
     }
     if (space_.may_be_illegal)
-        solvers::mend_actions(simulator_, space_, records_, sampling_->batch(), rows_.data(),
-                              drawn_.data(), mending_);
+        solvers::repair_actions(simulator_, space_, records_, sampling_->batch(), rows_.data(),
+                                drawn_.data(), repair_);
 }
 
-// All that are left, each with the same draws of luck: as many as there are lanes for.
-bool Rollout::try_all(const Situation& situation, Luck& luck, Meter& meter) {
-    const std::int64_t wanted =
-        std::min(situation.left, options_.horizon.value_or(longest_rollout));
+// All that are left, each with the same draws of stream: as many as there are lanes for.
+bool Rollout::try_all(const Decision& decision, RandomStream& stream, BudgetMeter& meter) {
+    const std::int64_t wanted = std::min(decision.left, options_.horizon.value_or(longest_rollout));
     const auto left = static_cast<std::int64_t>(left_.size());
     const std::size_t lanes = continuations_.lanes();
     // Where there are more actions than lanes, one draw takes several batches.
@@ -108,9 +107,9 @@ bool Rollout::try_all(const Situation& situation, Luck& luck, Meter& meter) {
     if (depth == 0) return false;
     starts_.clear();
     for (std::size_t d = 0; d < draws; ++d) {
-        const std::uint64_t draw = luck.bits();
+        const std::uint64_t draw = stream.bits();
         for (const std::size_t c : left_)
-            starts_.push_back({nullptr, situation.step, candidates_[c].action, depth, draw});
+            starts_.push_back({nullptr, decision.step, candidates_[c].action, depth, draw});
     }
     values_.clear();
     for (std::size_t first = 0; first < starts_.size(); first += lanes) {
@@ -118,7 +117,7 @@ bool Rollout::try_all(const Situation& situation, Luck& luck, Meter& meter) {
             std::span(starts_).subspan(first, std::min(lanes, starts_.size() - first));
         // The first values are better than none, though they are of fewer steps.
         const bool is_first = candidates_.front().draws == 0 && starts_.size() <= lanes;
-        if (!continuations_.run(situation, some, policy_, meter) &&
+        if (!continuations_.run(decision, some, policy_, meter) &&
             !(is_first && continuations_.depth() > 0))
             return false;
         for (std::size_t k = 0; k < some.size(); ++k) values_.push_back(continuations_.value(k));
@@ -160,16 +159,16 @@ std::size_t Rollout::best() const {
     return best;
 }
 
-void Rollout::decide(const Situation& situation, std::byte* action, Thoughts* thoughts) {
-    Luck luck(options_.seed, situation.episode, situation.step);
-    Meter meter(options_.budget, situation.stops);
-    find_candidates(situation, luck);
+void Rollout::decide(const Decision& decision, std::byte* action, Explanation* explanation) {
+    RandomStream stream(options_.seed, decision.episode, decision.step);
+    BudgetMeter meter(options_.budget, decision.stops);
+    find_candidates(decision, stream);
     depth_ = 0;
     const double rounds = std::ceil(std::log2(static_cast<double>(candidates_.size())));
     for (double round = 1; candidates_.size() > 1; ++round) {
         bool is_done = true;
         do {
-            is_done = try_all(situation, luck, meter);
+            is_done = try_all(decision, stream, meter);
             meter.add_iterations();
         } while (is_done && meter.has_room(1, 0) && meter.used() * rounds < round);
         if (!is_done || !meter.has_room(1, 0)) break;
@@ -178,22 +177,23 @@ void Rollout::decide(const Situation& situation, std::byte* action, Thoughts* th
     }
     const std::size_t chosen = best();
     std::copy_n(candidates_[chosen].action, action_size_, action);
-    if (thoughts) note_thoughts(*thoughts, chosen, meter);
+    if (explanation) note_explanation(*explanation, chosen, meter);
 }
 
-void Rollout::note_thoughts(Thoughts& thoughts, std::size_t chosen, const Meter& meter) const {
-    thoughts.depth = depth_;
-    thoughts.iterations = meter.iterations();
-    thoughts.steps = meter.steps();
-    thoughts.chosen = chosen;
+void Rollout::note_explanation(Explanation& explanation, std::size_t chosen,
+                               const BudgetMeter& meter) const {
+    explanation.depth = depth_;
+    explanation.iterations = meter.iterations();
+    explanation.steps = meter.steps();
+    explanation.chosen = chosen;
     for (std::size_t c = 0; c < candidates_.size(); ++c) {
         const Candidate& candidate = candidates_[c];
         const auto draws = static_cast<double>(std::max<std::int64_t>(candidate.draws, 1));
-        thoughts.candidates.push_back({c == 0 ? "policy" : "action",
-                                       {candidate.action, candidate.action + action_size_},
-                                       candidate.sum / draws,
-                                       candidate.error(),
-                                       candidate.draws});
+        explanation.candidates.push_back({c == 0 ? "policy" : "action",
+                                          {candidate.action, candidate.action + action_size_},
+                                          candidate.sum / draws,
+                                          candidate.error(),
+                                          candidate.draws});
     }
 }
 

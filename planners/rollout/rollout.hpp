@@ -1,15 +1,15 @@
 // plan:rollout: a step of policy improvement (Tesauro and Galperin, 1996; Bertsekas, Tsitsiklis and
-// Wu, 1997). Each action is tried, and the policy plays on: all with the same luck. Those that are
-// behind drop out by halves (Karnin, Koren and Somekh, 2013).
+// Wu, 1997). Each action is tried, and the policy plays on: all with the same stream. Those that
+// are behind drop out by halves (Karnin, Koren and Somekh, 2013).
 #pragma once
 
 #include "planners/planner/planner.hpp"
 #include "planners/rollout/rollout_options.hpp"
 #include "planners/simulation/continuations.hpp"
 #include "planners/simulation/finite_actions.hpp"
-#include "planners/simulation/luck.hpp"
+#include "planners/simulation/random_stream.hpp"
+#include "solvers/spaces/action_repair.hpp"
 #include "solvers/spaces/actions.hpp"
-#include "solvers/spaces/mending.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -20,8 +20,8 @@ namespace rddlc::planners {
 
 class Rollout : public Planner {
   public:
-    Rollout(const Surroundings& surroundings, const RolloutOptions& options);
-    void decide(const Situation& situation, std::byte* action, Thoughts* thoughts) override;
+    Rollout(const PlannerContext& context, const RolloutOptions& options);
+    void decide(const Decision& decision, std::byte* action, Explanation* explanation) override;
 
   private:
     // An action, and by how much it was better than the policy's, draw by draw.
@@ -34,12 +34,13 @@ class Rollout : public Planner {
         double error() const;
     };
 
-    void find_candidates(const Situation& situation, Luck& luck);
-    void draw_actions(const Situation& situation, Luck& luck);
-    bool try_all(const Situation& situation, Luck& luck, Meter& meter);
+    void find_candidates(const Decision& decision, RandomStream& stream);
+    void draw_actions(const Decision& decision, RandomStream& stream);
+    bool try_all(const Decision& decision, RandomStream& stream, BudgetMeter& meter);
     void halve();
     std::size_t best() const;
-    void note_thoughts(Thoughts& thoughts, std::size_t chosen, const Meter& meter) const;
+    void note_explanation(Explanation& explanation, std::size_t chosen,
+                          const BudgetMeter& meter) const;
 
     const rddl_simulator& simulator_;
     RolloutOptions options_;
@@ -52,10 +53,10 @@ class Rollout : public Planner {
     std::vector<std::uint8_t> legal_;
     // Actions that are drawn, where not all are taken.
     std::optional<Futures> sampling_;
-    solvers::MendingRoom mending_;
+    solvers::RepairBuffers repair_;
     std::vector<std::byte> drawn_;
     std::vector<float> rows_, base_row_;
-    std::vector<std::uint64_t> lucks_;
+    std::vector<std::uint64_t> streams_;
     std::vector<Candidate> candidates_;  // the first one is the policy's action
     std::vector<std::size_t> left_;      // of them, the policy's first
     std::vector<Start> starts_;

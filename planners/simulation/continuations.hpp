@@ -4,8 +4,8 @@
 
 #include "planners/planner/planner.hpp"
 #include "planners/simulation/base_policy.hpp"
+#include "planners/simulation/budget.hpp"
 #include "planners/simulation/futures.hpp"
-#include "planners/simulation/meter.hpp"
 
 #include <rddl/simulator.h>
 
@@ -17,11 +17,11 @@
 namespace rddlc::planners {
 
 struct Start {
-    const std::byte* state;   // NULL: that of the situation
+    const std::byte* state;   // NULL: that of the decision
     std::int64_t step;        // of the episode, of that state
     const std::byte* action;  // the first one; NULL: the policy's, too
     std::int64_t depth;       // steps, at least 1
-    std::uint64_t luck;
+    std::uint64_t stream;
 };
 
 class Continuations {
@@ -30,8 +30,8 @@ class Continuations {
 
     std::size_t lanes() const { return static_cast<std::size_t>(futures_.count()); }
     // At most `lanes` of them. False where time was up: then values are those of fewer steps.
-    bool run(const Situation& situation, std::span<const Start> starts, BasePolicy& policy,
-             Meter& meter);
+    bool run(const Decision& decision, std::span<const Start> starts, BasePolicy& policy,
+             BudgetMeter& meter);
 
     // Of start k: the discounted sum of rewards, the first of them, and the state after it.
     double value(std::size_t k) const { return futures_.value(k); }
@@ -49,14 +49,14 @@ class Continuations {
     std::int64_t depth() const { return depth_; }
 
   private:
-    void begin(const Situation& situation, std::span<const Start> starts);
+    void begin(const Decision& decision, std::span<const Start> starts);
 
     const rddl_simulator& simulator_;
     std::size_t state_size_, action_size_;
     Futures futures_;
     std::vector<std::byte> states_, actions_, first_actions_, first_states_;
     std::vector<std::int64_t> steps_;
-    std::vector<std::uint64_t> lucks_;
+    std::vector<std::uint64_t> streams_;
     std::vector<std::uint8_t> wanted_, all_wanted_;  // of the policy
     std::vector<double> first_rewards_;
     std::int64_t depth_ = 0;

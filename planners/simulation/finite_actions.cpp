@@ -93,10 +93,10 @@ void FiniteActions::find_legal(const rddl_batch* batch, std::int64_t place,
     if (!asks_) return;
     if (!lanes_) {
         lanes_.emplace(*simulator_, static_cast<std::int64_t>(count_), 0);
-        lucks_.resize(count_);
+        streams_.resize(count_);
         violated_.resize(count_);
     }
-    lanes_->begin(batch, place, lucks_);
+    lanes_->begin(batch, place, streams_);
     solvers::require_done(*simulator_, simulator_->violated_preconditions(
                                            lanes_->batch(), records_.data(), violated_.data()));
     bool any = false;

@@ -40,7 +40,7 @@ class FiniteActions {
     std::size_t count_ = 0, size_ = 0;
     std::vector<std::byte> records_;
     std::optional<Futures> lanes_;  // one for each action, to ask about all of them at once
-    std::vector<std::uint64_t> lucks_;
+    std::vector<std::uint64_t> streams_;
     std::vector<std::int32_t> violated_;
 };
 

@@ -34,11 +34,11 @@ Futures::Futures(const rddl_simulator& simulator, std::int64_t count, std::int64
       cut_(sources_.size()) {}
 
 void Futures::begin(const rddl_batch* from, std::int64_t place,
-                    std::span<const std::uint64_t> lucks) {
+                    std::span<const std::uint64_t> streams) {
     std::ranges::fill(sources_, place);
     require_done(simulator_,
                  simulator_.copy_environments(batch_.get(), 0, count(), from, sources_.data()));
-    require_done(simulator_, simulator_.set_seeds(batch_.get(), 0, count(), lucks.data()));
+    require_done(simulator_, simulator_.set_seeds(batch_.get(), 0, count(), streams.data()));
     look_at_causes();
     std::ranges::fill(returns_, 0.0);
     std::ranges::fill(cut_, std::uint8_t{0});

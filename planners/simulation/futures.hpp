@@ -1,4 +1,4 @@
-// What may come of a state: copies of one environment, each with luck of its own, in one batch.
+// What may come of a state: copies of one environment, each with stream of its own, in one batch.
 #pragma once
 
 #include "solvers/batches/batch.hpp"
@@ -17,8 +17,9 @@ class Futures {
     // `horizon` as batches have it: 0: the instance's, RDDL_NO_HORIZON: none.
     Futures(const rddl_simulator& simulator, std::int64_t count, std::int64_t horizon);
 
-    // All begin where environment `place` of the batch stands; the k-th has the luck of lucks[k].
-    void begin(const rddl_batch* from, std::int64_t place, std::span<const std::uint64_t> lucks);
+    // All begin where environment `place` of the batch stands; the k-th has the stream of
+    // streams[k].
+    void begin(const rddl_batch* from, std::int64_t place, std::span<const std::uint64_t> streams);
     // The k-th goes on from states[k], after so many steps; those of lanes that are not wanted are
     // any that the problem has.
     void place(const std::byte* states, std::span<const std::int64_t> steps);

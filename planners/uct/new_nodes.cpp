@@ -1,5 +1,5 @@
 // The values of new nodes of plan:uct, by continuations.
-#include "planners/simulation/luck.hpp"
+#include "planners/simulation/random_stream.hpp"
 #include "planners/uct/uct.hpp"
 
 #include <algorithm>
@@ -16,15 +16,16 @@ constexpr std::size_t lock_draws = 64;
 }  // namespace
 
 // Each action of each new node is tried, and the policy plays on: the actions of a node with the
-// same luck. Or the policy alone plays on.
-bool Uct::value_new_nodes(const Situation& situation, Luck& luck, Meter& meter, std::size_t draws) {
+// same stream. Or the policy alone plays on.
+bool Uct::value_new_nodes(const Decision& decision, RandomStream& stream, BudgetMeter& meter,
+                          std::size_t draws) {
     asked_.clear();
     unchanged_.assign(new_nodes_.size(), 0);
     unchanged_rewards_.assign(new_nodes_.size(), 0);
     const bool by_policy = options_.initial == Initial::Rollout;
     for (std::size_t n = 0; n < new_nodes_.size(); ++n)
         for (std::size_t d = 0; d < draws; ++d) {
-            const std::uint64_t draw = luck.bits();
+            const std::uint64_t draw = stream.bits();
             const Node& node = tree_.node(new_nodes_[n]);
             for (std::uint32_t e = 0; e < (by_policy ? 1 : node.edge_count); ++e)
                 asked_.push_back({static_cast<NodeId>(n), node.first_edge + e, draw});
@@ -41,10 +42,10 @@ bool Uct::value_new_nodes(const Situation& situation, Luck& luck, Meter& meter, 
                  std::min(std::min(depth_ - node.depth, leaf_depth_),
                           std::max<std::int64_t>(
                               1, meter.steps_left() / static_cast<std::int64_t>(count))),
-                 asked_[k].luck});
+                 asked_[k].stream});
         }
         if (!meter.has_room(static_cast<std::int64_t>(count), 0)) return false;
-        if (!continuations_.run(situation, starts_, policies_[policy_], meter) &&
+        if (!continuations_.run(decision, starts_, policies_[policy_], meter) &&
             continuations_.depth() == 0)
             return false;
         take_values(first, count);
@@ -54,7 +55,8 @@ bool Uct::value_new_nodes(const Situation& situation, Luck& luck, Meter& meter, 
         node.is_open = true;
         if (!by_policy) tree_.value_node(node);
         if (by_policy || unchanged_[n] < draws * node.edge_count) continue;
-        if (simulator_.problem->stochastic && !stays_unchanged(situation, n, luck, meter)) continue;
+        if (simulator_.problem->stochastic && !stays_unchanged(decision, n, stream, meter))
+            continue;
         node.is_locked = true;
         node.value = 0;
         for (std::int64_t t = node.depth; t < depth_; ++t)
@@ -64,7 +66,8 @@ bool Uct::value_new_nodes(const Situation& situation, Luck& luck, Meter& meter, 
 }
 
 // Whether it was no accident that no action has changed the state: each one is tried again, often.
-bool Uct::stays_unchanged(const Situation& situation, std::size_t n, Luck& luck, Meter& meter) {
+bool Uct::stays_unchanged(const Decision& decision, std::size_t n, RandomStream& stream,
+                          BudgetMeter& meter) {
     const NodeId id = new_nodes_[n];
     const Node& node = tree_.node(id);
     const std::size_t all = lock_draws * node.edge_count;
@@ -74,10 +77,10 @@ bool Uct::stays_unchanged(const Situation& situation, std::size_t n, Luck& luck,
             const auto edge = static_cast<EdgeId>(k % node.edge_count);
             starts_.push_back({tree_.state(id), step_ + node.depth,
                                actions_.record(tree_.edge(node.first_edge + edge).action), 1,
-                               luck.bits()});
+                               stream.bits()});
         }
         if (!meter.has_room(static_cast<std::int64_t>(starts_.size()), 0) ||
-            !continuations_.run(situation, starts_, policies_[policy_], meter))
+            !continuations_.run(decision, starts_, policies_[policy_], meter))
             return false;
         for (std::size_t k = 0; k < starts_.size(); ++k)
             if (!is_unchanged(id, n, k)) return false;

@@ -1,6 +1,6 @@
 #include "planners/uct/tree.hpp"
 
-#include "planners/simulation/luck.hpp"
+#include "planners/simulation/random_stream.hpp"
 
 #include <algorithm>
 #include <cstring>

@@ -1,6 +1,6 @@
 #include "planners/uct/uct.hpp"
 
-#include "planners/simulation/luck.hpp"
+#include "planners/simulation/random_stream.hpp"
 #include "support/failure.hpp"
 
 #include <fmt/format.h>
@@ -55,22 +55,22 @@ std::int64_t leaf_lanes(const UctOptions& options, std::size_t actions) {
 
 }  // namespace
 
-Uct::Uct(const Surroundings& surroundings, const UctOptions& options)
-    : simulator_(surroundings.simulator),
+Uct::Uct(const PlannerContext& context, const UctOptions& options)
+    : simulator_(context.simulator),
       options_(options),
       state_size_(static_cast<std::size_t>(simulator_.problem->state_size)),
       action_size_(static_cast<std::size_t>(simulator_.problem->action_size)),
       actions_(finite_actions(simulator_, options.actions)),
-      trees_(simulator_, affordable_lanes(options, options.lanes), surroundings.horizon),
-      continuations_(simulator_, leaf_lanes(options, actions_.count()), surroundings.horizon),
+      trees_(simulator_, affordable_lanes(options, options.lanes), context.horizon),
+      continuations_(simulator_, leaf_lanes(options, actions_.count()), context.horizon),
       tree_(state_size_, simulator_.problem->discount, options.backup),
       trials_(trees_.running().size()),
-      lucks_(trials_.size()),
+      streams_(trials_.size()),
       records_(trials_.size() * action_size_),
       states_(trials_.size() * state_size_) {
     const auto lanes = static_cast<std::int64_t>(continuations_.lanes());
-    if (surroundings.base)
-        policies_.emplace_back(simulator_, *surroundings.base, lanes);
+    if (context.base)
+        policies_.emplace_back(simulator_, *context.base, lanes);
     else {
         policies_.emplace_back(simulator_, solvers::noop_policy(simulator_), lanes);
         policies_.emplace_back(simulator_, solvers::random_policy(simulator_, options.seed), lanes);
@@ -78,7 +78,7 @@ Uct::Uct(const Surroundings& surroundings, const UctOptions& options)
 }
 
 // Chooses the one with the greatest return from here on.
-void Uct::choose_policy(const Situation& situation, Luck& luck, Meter& meter) {
+void Uct::choose_policy(const Decision& decision, RandomStream& stream, BudgetMeter& meter) {
     policy_ = 0;
     const std::size_t draws = std::min(policy_draws, continuations_.lanes());
     const auto cost = static_cast<std::int64_t>(draws * policies_.size()) * depth_;
@@ -86,10 +86,10 @@ void Uct::choose_policy(const Situation& situation, Luck& luck, Meter& meter) {
     if (policies_.size() == 1 || !meter.has_room(10 * cost, 0)) return;
     starts_.clear();
     for (std::size_t d = 0; d < draws; ++d)
-        starts_.push_back({nullptr, step_, nullptr, depth_, luck.bits()});
+        starts_.push_back({nullptr, step_, nullptr, depth_, stream.bits()});
     double best = 0;
     for (std::size_t p = 0; p < policies_.size(); ++p) {
-        if (!continuations_.run(situation, starts_, policies_[p], meter)) return;
+        if (!continuations_.run(decision, starts_, policies_[p], meter)) return;
         double sum = 0;
         for (std::size_t k = 0; k < draws; ++k) sum += continuations_.value(k);
         if (p > 0 && !(sum > best)) continue;
@@ -104,13 +104,13 @@ void Uct::add_edges(NodeId node, const rddl_batch* batch, std::int64_t place) {
         if (legal_[a]) tree_.add_edge(node, static_cast<std::uint32_t>(a));
 }
 
-bool Uct::open_root(const Situation& situation, Luck& luck, Meter& meter) {
-    solvers::require_done(
-        simulator_, simulator_.get_state(situation.batch, situation.place, 1, states_.data()));
+bool Uct::open_root(const Decision& decision, RandomStream& stream, BudgetMeter& meter) {
+    solvers::require_done(simulator_,
+                          simulator_.get_state(decision.batch, decision.place, 1, states_.data()));
     tree_.clear();
     root_ = tree_.node_of(states_.data(), 0);
     new_nodes_.assign(1, root_);
-    add_edges(root_, situation.batch, situation.place);
+    add_edges(root_, decision.batch, decision.place);
     least_ = std::numeric_limits<double>::infinity();
     most_ = -least_;
     leaf_depth_ = depth_;
@@ -118,7 +118,7 @@ bool Uct::open_root(const Situation& situation, Luck& luck, Meter& meter) {
     if (!meter.has_room(edges, 0)) return false;
     const bool is_cheap =
         meter.has_room(10 * edges * depth_ * static_cast<std::int64_t>(root_draws), 0);
-    if (!value_new_nodes(situation, luck, meter, is_cheap ? root_draws : 1)) return false;
+    if (!value_new_nodes(decision, stream, meter, is_cheap ? root_draws : 1)) return false;
     // Where the policy shows no difference between actions, the tree has to: it grows deeper with
     // leaves that are looked at more shortly.
     if (least_ == most_) leaf_depth_ = short_leaf;
@@ -126,13 +126,13 @@ bool Uct::open_root(const Situation& situation, Luck& luck, Meter& meter) {
 }
 
 // Actions without a value come first. Then the best by value and by how little it was tried (UCB1).
-EdgeId Uct::choose_edge(const Node& node, Luck& luck) {
+EdgeId Uct::choose_edge(const Node& node, RandomStream& stream) {
     double all = 1;
     std::uint32_t untried = 0;
     EdgeId chosen = node.first_edge;
     for (const Edge& edge : tree_.edges(node)) {
         all += edge.weight();
-        if (edge.weight() == 0 && luck.below(++untried) == 0) chosen = tree_.id_of(edge);
+        if (edge.weight() == 0 && stream.below(++untried) == 0) chosen = tree_.id_of(edge);
     }
     if (untried > 0) return chosen;
     const double left = static_cast<double>(depth_ - node.depth) / static_cast<double>(depth_);
@@ -151,25 +151,25 @@ EdgeId Uct::choose_edge(const Node& node, Luck& luck) {
     return chosen;
 }
 
-bool Uct::run_trials(const Situation& situation, Luck& luck, Meter& meter) {
-    for (std::uint64_t& each : lucks_) each = luck.bits();
-    trees_.begin(situation.batch, situation.place, lucks_);
+bool Uct::run_trials(const Decision& decision, RandomStream& stream, BudgetMeter& meter) {
+    for (std::uint64_t& each : streams_) each = stream.bits();
+    trees_.begin(decision.batch, decision.place, streams_);
     new_nodes_.clear();
     for (Trial& trial : trials_) {
         trial.node = root_;
         trial.is_down = false;
         trial.hops.clear();
     }
-    for (std::int64_t depth = 0; step_trials(luck, depth, meter); ++depth) {
+    for (std::int64_t depth = 0; step_trials(stream, depth, meter); ++depth) {
     }
-    if (!new_nodes_.empty() && !value_new_nodes(situation, luck, meter, 1)) return false;
+    if (!new_nodes_.empty() && !value_new_nodes(decision, stream, meter, 1)) return false;
     for (const Trial& trial : trials_) back_up(trial);
     meter.add_iterations(static_cast<std::int64_t>(trials_.size()));
     return true;
 }
 
 // False: all have reached their leaves.
-bool Uct::step_trials(Luck& luck, std::int64_t depth, Meter& meter) {
+bool Uct::step_trials(RandomStream& stream, std::int64_t depth, BudgetMeter& meter) {
     std::int64_t moving = 0;
     for (std::size_t k = 0; k < trials_.size(); ++k) {
         Trial& trial = trials_[k];
@@ -177,7 +177,7 @@ bool Uct::step_trials(Luck& luck, std::int64_t depth, Meter& meter) {
         trial.is_down = trial.is_down || !node.is_open || node.is_locked;
         std::uint32_t action = 0;
         if (!trial.is_down) {
-            const EdgeId edge = choose_edge(node, luck);
+            const EdgeId edge = choose_edge(node, stream);
             tree_.edge(edge).started += 1;
             trial.hops.push_back({trial.node, edge, 0});
             action = tree_.edge(edge).action;
@@ -191,12 +191,12 @@ bool Uct::step_trials(Luck& luck, std::int64_t depth, Meter& meter) {
     solvers::require_done(simulator_,
                           simulator_.get_state(trees_.batch(), 0, trees_.count(), states_.data()));
     for (std::size_t k = 0; k < trials_.size(); ++k)
-        if (!trials_[k].is_down) follow(k, luck, depth + 1);
+        if (!trials_[k].is_down) follow(k, stream, depth + 1);
     return true;
 }
 
 // To the node where the trial's environment is now.
-void Uct::follow(std::size_t k, Luck& luck, std::int64_t depth) {
+void Uct::follow(std::size_t k, RandomStream& stream, std::int64_t depth) {
     Trial& trial = trials_[k];
     Trial::Hop& hop = trial.hops.back();
     hop.reward = trees_.reward(k);
@@ -210,7 +210,7 @@ void Uct::follow(std::size_t k, Luck& luck, std::int64_t depth) {
             edge.outcome_count >= std::ceil(options_.outcomes * std::sqrt(edge.started));
         if (known) {
             next = *known;
-        } else if (is_full && (next = tree_.seen_outcome(hop.edge, luck.unit())) != Tree::over) {
+        } else if (is_full && (next = tree_.seen_outcome(hop.edge, stream.unit())) != Tree::over) {
             // Progressive widening: the trial goes on from an outcome that was seen before.
             const std::int64_t step = step_ + depth;
             solvers::require_done(
@@ -257,34 +257,34 @@ EdgeId Uct::best_edge() const {
     return chosen;
 }
 
-void Uct::decide(const Situation& situation, std::byte* action, Thoughts* thoughts) {
-    Luck luck(options_.seed, situation.episode, situation.step);
-    Meter meter(options_.budget, situation.stops);
-    step_ = situation.step;
-    depth_ = std::min(situation.left, options_.horizon.value_or(first_depth));
-    choose_policy(situation, luck, meter);
-    const bool is_open = open_root(situation, luck, meter);
+void Uct::decide(const Decision& decision, std::byte* action, Explanation* explanation) {
+    RandomStream stream(options_.seed, decision.episode, decision.step);
+    BudgetMeter meter(options_.budget, decision.stops);
+    step_ = decision.step;
+    depth_ = std::min(decision.left, options_.horizon.value_or(first_depth));
+    choose_policy(decision, stream, meter);
+    const bool is_open = open_root(decision, stream, meter);
     const Node& root = tree_.node(root_);
     if (is_open && !root.is_locked && root.edge_count > 1)
         while (meter.has_room(static_cast<std::int64_t>(trials_.size()) * depth_, 0) &&
-               run_trials(situation, luck, meter)) {
+               run_trials(decision, stream, meter)) {
         }
-    if (thoughts && root.is_locked)
-        thoughts->note = "no action changes the state or the reward any more";
+    if (explanation && root.is_locked)
+        explanation->note = "no action changes the state or the reward any more";
     const EdgeId chosen = best_edge();
     std::copy_n(actions_.record(tree_.edge(chosen).action), action_size_, action);
-    if (thoughts) note_thoughts(*thoughts, chosen, meter);
+    if (explanation) note_explanation(*explanation, chosen, meter);
 }
 
-void Uct::note_thoughts(Thoughts& thoughts, EdgeId chosen, const Meter& meter) {
-    thoughts.depth = depth_;
-    thoughts.iterations = meter.iterations();
-    thoughts.steps = meter.steps();
+void Uct::note_explanation(Explanation& explanation, EdgeId chosen, const BudgetMeter& meter) {
+    explanation.depth = depth_;
+    explanation.iterations = meter.iterations();
+    explanation.steps = meter.steps();
     const Node& root = tree_.node(root_);
-    thoughts.chosen = chosen - root.first_edge;
+    explanation.chosen = chosen - root.first_edge;
     for (const Edge& edge : tree_.edges(root)) {
         const std::byte* const record = actions_.record(edge.action);
-        thoughts.candidates.push_back(
+        explanation.candidates.push_back(
             {"action", {record, record + action_size_}, edge.value, 0, edge.done + edge.estimates});
     }
 }

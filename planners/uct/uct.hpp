@@ -7,7 +7,7 @@
 #include "planners/simulation/continuations.hpp"
 #include "planners/simulation/finite_actions.hpp"
 #include "planners/simulation/futures.hpp"
-#include "planners/simulation/luck.hpp"
+#include "planners/simulation/random_stream.hpp"
 #include "planners/uct/tree.hpp"
 #include "planners/uct/uct_options.hpp"
 
@@ -19,8 +19,8 @@ namespace rddlc::planners {
 
 class Uct : public Planner {
   public:
-    Uct(const Surroundings& surroundings, const UctOptions& options);
-    void decide(const Situation& situation, std::byte* action, Thoughts* thoughts) override;
+    Uct(const PlannerContext& context, const UctOptions& options);
+    void decide(const Decision& decision, std::byte* action, Explanation* explanation) override;
 
   private:
     // A trial on its way down.
@@ -35,24 +35,26 @@ class Uct : public Planner {
         std::vector<Hop> hops;
     };
 
-    void choose_policy(const Situation& situation, Luck& luck, Meter& meter);
-    bool open_root(const Situation& situation, Luck& luck, Meter& meter);
+    void choose_policy(const Decision& decision, RandomStream& stream, BudgetMeter& meter);
+    bool open_root(const Decision& decision, RandomStream& stream, BudgetMeter& meter);
     // The trials of one round; false where time was up, and nothing has changed but counts.
-    bool run_trials(const Situation& situation, Luck& luck, Meter& meter);
-    bool step_trials(Luck& luck, std::int64_t depth, Meter& meter);
-    void follow(std::size_t k, Luck& luck, std::int64_t depth);
-    EdgeId choose_edge(const Node& node, Luck& luck);
+    bool run_trials(const Decision& decision, RandomStream& stream, BudgetMeter& meter);
+    bool step_trials(RandomStream& stream, std::int64_t depth, BudgetMeter& meter);
+    void follow(std::size_t k, RandomStream& stream, std::int64_t depth);
+    EdgeId choose_edge(const Node& node, RandomStream& stream);
     // Its actions, where environment `place` of the batch stands.
     void add_edges(NodeId node, const rddl_batch* batch, std::int64_t place);
-    bool value_new_nodes(const Situation& situation, Luck& luck, Meter& meter, std::size_t draws);
+    bool value_new_nodes(const Decision& decision, RandomStream& stream, BudgetMeter& meter,
+                         std::size_t draws);
     void take_values(std::size_t first, std::size_t count);
-    bool stays_unchanged(const Situation& situation, std::size_t n, Luck& luck, Meter& meter);
+    bool stays_unchanged(const Decision& decision, std::size_t n, RandomStream& stream,
+                         BudgetMeter& meter);
     bool is_unchanged(NodeId id, std::size_t n, std::size_t k) const;
     void back_up(const Trial& trial);
     void note_return(double value);
     double value_of(std::size_t k) const;
     EdgeId best_edge() const;
-    void note_thoughts(Thoughts& thoughts, EdgeId chosen, const Meter& meter);
+    void note_explanation(Explanation& explanation, EdgeId chosen, const BudgetMeter& meter);
 
     const rddl_simulator& simulator_;
     UctOptions options_;
@@ -67,7 +69,7 @@ class Uct : public Planner {
     std::int64_t depth_ = 0;  // of the search: steps that are looked ahead
     std::int64_t step_ = 0;   // of the episode
     std::vector<Trial> trials_;
-    std::vector<std::uint64_t> lucks_;
+    std::vector<std::uint64_t> streams_;
     std::vector<std::byte> records_, states_;
     std::vector<std::uint8_t> legal_;
     std::vector<NodeId> new_nodes_;
@@ -75,7 +77,7 @@ class Uct : public Planner {
     struct Asked {
         NodeId node;
         EdgeId edge;
-        std::uint64_t luck;
+        std::uint64_t stream;
     };
     std::vector<Asked> asked_;
     std::vector<Start> starts_;

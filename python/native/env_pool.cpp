@@ -42,7 +42,7 @@ EnvPool::EnvPool(workbench::Simulator simulator, const EnvPoolSettings& settings
       calls_(settings.environments > 1) {
     if (settings.environments < 1)
         throw Refused(fmt::format("num_envs is {}: one or more", settings.environments));
-    solvers::require_room(*simulator_, settings.environments, default_memory_limit);
+    solvers::require_memory(*simulator_, settings.environments, default_memory_limit);
     batch_ = solvers::create_batch(*simulator_, options_of(settings, *simulator_->problem));
     const rddl_problem& problem = *simulator_->problem;
     const auto count = static_cast<std::size_t>(settings.environments);

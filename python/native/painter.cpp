@@ -57,14 +57,14 @@ class Painter {
     }
 
     const render::Picture& draw() {
-        const render::Moment now = moment();
+        const render::Snapshot now = snapshot();
         render::draw_picture(canvas_, visualizer_, now);
         canvas_.read(picture_);
         return picture_;
     }
 
     std::string text() const {
-        const render::Moment now = moment();
+        const render::Snapshot now = snapshot();
         std::string text = fmt::format("step {}, return {}\n", now.now().number,
                                        render::number_text(now.now().total));
         for (const render::TextLine& line : render::state_lines(now))
@@ -76,7 +76,7 @@ class Painter {
     std::string page(double frames_per_second) {
         render::ReplayPage page(world_, width_, height_, frames_per_second);
         page.begin_run(simulator_->problem->instance);
-        for_each_moment([&](const render::Moment& then) { page.add(then, picture_); });
+        for_each_moment([&](const render::Snapshot& then) { page.add(then, picture_); });
         return page.html();
     }
 
@@ -84,7 +84,7 @@ class Painter {
         std::string bytes;
         render::GifWriter writer(width_, height_, [&](std::string_view more) { bytes += more; });
         for_each_moment(
-            [&](const render::Moment&) { writer.add(picture_, 1 / frames_per_second); });
+            [&](const render::Snapshot&) { writer.add(picture_, 1 / frames_per_second); });
         writer.finish();
         return bytes;
     }
@@ -96,7 +96,7 @@ class Painter {
         std::deque<render::Step> shown;
         for (const render::Step& step : steps_) {
             shown.push_back(step);
-            const render::Moment then(world_, shown, episode_, horizon_);
+            const render::Snapshot then(world_, shown, episode_, horizon_);
             render::draw_picture(canvas_, visualizer_, then);
             canvas_.read(picture_);
             visit(then);
@@ -122,7 +122,7 @@ class Painter {
         return *found;
     }
 
-    render::Moment moment() const { return {world_, steps_, episode_, horizon_}; }
+    render::Snapshot snapshot() const { return {world_, steps_, episode_, horizon_}; }
 
     void add(EnvPool& batch, double total) {
         render::Step step;

@@ -18,8 +18,8 @@ const Visualizer& choice(const rddl_problem& problem) {
     return fluents.empty() || fluents.size() > most_panels ? text::visualizer : chart::visualizer;
 }
 
-void draw(Canvas& canvas, const Box& area, const Moment& moment) {
-    choice(moment.problem()).draw(canvas, area, moment);
+void draw(Canvas& canvas, const Box& area, const Snapshot& snapshot) {
+    choice(snapshot.problem()).draw(canvas, area, snapshot);
 }
 
 }  // namespace

@@ -11,17 +11,17 @@ namespace rddl::render::cart_pole {
 namespace {
 
 // The push between -1 and 1, to the right if it is positive.
-double push(const Moment& moment) {
-    if (!moment.acts()) return 0;
-    if (moment.has("force-side|push-right"))
-        return moment.number("force-side|push-right") > 0 ? 1 : -1;
-    const double most = moment.number_or("FORCE-MAX", 10);
-    return std::clamp(moment.number("force") / most, -1.0, 1.0);
+double push(const Snapshot& snapshot) {
+    if (!snapshot.acts()) return 0;
+    if (snapshot.has("force-side|push-right"))
+        return snapshot.number("force-side|push-right") > 0 ? 1 : -1;
+    const double most = snapshot.number_or("FORCE-MAX", 10);
+    return std::clamp(snapshot.number("force") / most, -1.0, 1.0);
 }
 
-void draw(Canvas& canvas, const Box& area, const Moment& moment) {
-    const double limit = moment.number("POS-LIMIT|TRACK-LIMIT");
-    const double length = 2 * moment.number("POLE-LEN|POLE-LENGTH");
+void draw(Canvas& canvas, const Box& area, const Snapshot& snapshot) {
+    const double limit = snapshot.number("POS-LIMIT|TRACK-LIMIT");
+    const double length = 2 * snapshot.number("POLE-LEN|POLE-LENGTH");
     const Plane plane(area.inset(8, 0), -1.12 * limit, -0.45, 1.12 * limit, length * 2.4);
     const double track = plane(0, 0).y;
     canvas.line({area.x, track}, {area.right(), track}, colors::muted, 1.5);
@@ -31,10 +31,10 @@ void draw(Canvas& canvas, const Box& area, const Moment& moment) {
         canvas.text({x, track + 24}, number_text(end),
                     {.size = 11, .color = colors::muted, .align = Align::Center});
     }
-    const double angle = moment.number("ang-pos|angle");
-    const double most = moment.number_or("ANG-LIMIT|ANGLE-LIMIT", 0.2);
+    const double angle = snapshot.number("ang-pos|angle");
+    const double most = snapshot.number_or("ANG-LIMIT|ANGLE-LIMIT", 0.2);
     const double half_width = 36, height = 30;
-    const Point cart = plane(moment.number("pos|position"), 0);
+    const Point cart = plane(snapshot.number("pos|position"), 0);
     const Point joint{cart.x, cart.y - height - 8};
     const double pole = plane.length(length) * 1.9;
     canvas.sector(joint, pole + 14, -M_PI / 2 - most, -M_PI / 2 + most, rgb(0xe5f3ee));
@@ -47,7 +47,7 @@ void draw(Canvas& canvas, const Box& area, const Moment& moment) {
     canvas.line(joint, {joint.x + pole * std::sin(angle), joint.y - pole * std::cos(angle)},
                 std::abs(angle) > most ? colors::vermilion : colors::orange, 9);
     canvas.disc(joint, 5, colors::ink);
-    const double force = push(moment), side = force > 0 ? 1 : -1;
+    const double force = push(snapshot), side = force > 0 ? 1 : -1;
     if (force != 0)
         arrow(canvas, {cart.x + side * (half_width + 4), joint.y + height / 2},
               {cart.x + side * (half_width + 10 + 30 * std::abs(force)), joint.y + height / 2},

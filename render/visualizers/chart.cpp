@@ -33,11 +33,11 @@ struct Axis {
     std::int64_t count() const { return last - first + 1; }
 };
 
-Axis axis_of(const Moment& moment) {
-    const std::int64_t first = moment.steps().front().number, now = moment.now().number;
+Axis axis_of(const Snapshot& snapshot) {
+    const std::int64_t first = snapshot.steps().front().number, now = snapshot.now().number;
     const auto most = static_cast<std::int64_t>(most_steps_remembered);
-    const bool whole = first == 0 && moment.horizon() > 0 && moment.horizon() <= most;
-    return {first, whole ? std::max(moment.horizon(), now) : std::max(now, first + 49)};
+    const bool whole = first == 0 && snapshot.horizon() > 0 && snapshot.horizon() <= most;
+    return {first, whole ? std::max(snapshot.horizon(), now) : std::max(now, first + 49)};
 }
 
 // The elements of a panel beside its plot.
@@ -49,7 +49,7 @@ struct Look {
 };
 
 struct Panel {
-    const Moment& moment;
+    const Snapshot& snapshot;
     const rddl_fluent& fluent;
     std::vector<Values> past;  // one a step
     Range range;
@@ -62,7 +62,7 @@ struct Panel {
                 plot.right()};
     }
     std::string objects(std::int64_t grounding) const {
-        return objects_of(moment, fluent, grounding);
+        return objects_of(snapshot, fluent, grounding);
     }
     const rddl_type* objects_of_range() const { return past.front().range(); }
     // The place of a label at the left for a height of the plot; it stays out of the title.
@@ -128,7 +128,7 @@ void draw_lines(Canvas& canvas, const Panel& panel) {
                 finish();
                 continue;
             }
-            const double x = time(static_cast<double>(panel.moment.steps()[i].number));
+            const double x = time(static_cast<double>(panel.snapshot.steps()[i].number));
             if (steps && !points.empty()) points.push_back({x, points.back().y});
             points.push_back({x, height(value)});
         }
@@ -151,8 +151,9 @@ void draw_rows(Canvas& canvas, const Panel& panel) {
         pixel_of(colors::paper));
     for (std::size_t i = 0; i < panel.past.size(); ++i) {
         const Values& values = panel.past[i];
-        const double part = static_cast<double>(panel.moment.steps()[i].number - panel.axis.first) /
-                            static_cast<double>(panel.axis.count());
+        const double part =
+            static_cast<double>(panel.snapshot.steps()[i].number - panel.axis.first) /
+            static_cast<double>(panel.axis.count());
         const auto column =
             static_cast<std::size_t>(std::min(std::floor(part * columns + 1e-6), columns - 1.0));
         for (std::size_t g = 0; g < values.numbers.size(); ++g)
@@ -178,9 +179,10 @@ void draw_rows(Canvas& canvas, const Panel& panel) {
     canvas.outline(plot, colors::rule, 0.8);
 }
 
-std::vector<std::string> names_of_lines(const Moment& moment, const rddl_fluent& fluent) {
+std::vector<std::string> names_of_lines(const Snapshot& snapshot, const rddl_fluent& fluent) {
     std::vector<std::string> names;
-    for (std::int64_t g = 0; g < fluent.count; ++g) names.push_back(objects_of(moment, fluent, g));
+    for (std::int64_t g = 0; g < fluent.count; ++g)
+        names.push_back(objects_of(snapshot, fluent, g));
     return names;
 }
 
@@ -203,7 +205,7 @@ void draw_panel_key(Canvas& canvas, const Box& box, const Panel& panel) {
                     {.size = 11, .color = series_color(0), .align = Align::Right});
         return;
     }
-    draw_key_of_lines(canvas, box, names_of_lines(panel.moment, panel.fluent));
+    draw_key_of_lines(canvas, box, names_of_lines(panel.snapshot, panel.fluent));
 }
 
 // The width of a row that is left for the title, whose right end has the key, or a number.
@@ -219,27 +221,28 @@ double room_for_title(const Canvas& canvas, double row, const Panel& panel) {
 }
 
 // The room for what stands at the left of a panel: numbers, or names of objects.
-double names_width(const Canvas& canvas, const Moment& moment, const rddl_fluent& fluent) {
+double names_width(const Canvas& canvas, const Snapshot& snapshot, const rddl_fluent& fluent) {
     double widest = 0;
     const auto add = [&](std::string_view name) {
         widest = std::max(widest, canvas.text_width(name, names_size));
     };
     if (has_lines(fluent)) {
-        const rddl_type* const type = moment.values(fluent).range();
+        const rddl_type* const type = snapshot.values(fluent).range();
         if (!type) return 44;
         for (std::int64_t i = 0; i < type->object_count; ++i) add(type->objects[i]);
     } else if (fluent.rank > 0) {
         const std::int64_t every = std::max<std::int64_t>(fluent.count / 30, 1);
-        for (std::int64_t g = 0; g < fluent.count; g += every) add(objects_of(moment, fluent, g));
-        add(objects_of(moment, fluent, fluent.count - 1));
+        for (std::int64_t g = 0; g < fluent.count; g += every) add(objects_of(snapshot, fluent, g));
+        add(objects_of(snapshot, fluent, fluent.count - 1));
     }
     return std::clamp(widest + 8, 12.0, 72.0);
 }
 
-void draw_panel(Canvas& canvas, const Box& box, const Moment& moment, const rddl_fluent& fluent,
+void draw_panel(Canvas& canvas, const Box& box, const Snapshot& snapshot, const rddl_fluent& fluent,
                 const Axis& axis, const Look& look) {
-    Panel panel{moment, fluent, {}, range_of(moment, fluent), axis, look, {}};
-    for (const Step& step : moment.steps()) panel.past.push_back(moment.values_in(step, fluent));
+    Panel panel{snapshot, fluent, {}, range_of(snapshot, fluent), axis, look, {}};
+    for (const Step& step : snapshot.steps())
+        panel.past.push_back(snapshot.values_in(step, fluent));
     const double below = look.is_small ? 4 : look.has_axis_title ? 25 : 15;
     panel.plot = box.below(18).above(below).after(look.names).before(14);
     const double room = room_for_title(canvas, box.width, panel);
@@ -266,21 +269,21 @@ struct SharedKey {
     bool of_bools = false;
     std::vector<std::string> lines;  // their names, in panels that have the same ones
 
-    bool has(const Moment& moment, const rddl_fluent& fluent) const {
+    bool has(const Snapshot& snapshot, const rddl_fluent& fluent) const {
         if (fluent.scalar == RDDL_BOOL) return of_bools;
-        return !lines.empty() && has_lines(fluent) && names_of_lines(moment, fluent) == lines;
+        return !lines.empty() && has_lines(fluent) && names_of_lines(snapshot, fluent) == lines;
     }
 };
 
 // The names that most panels have, if several have them.
-SharedKey shared_key_of(const Moment& moment, const std::vector<const rddl_fluent*>& fluents) {
+SharedKey shared_key_of(const Snapshot& snapshot, const std::vector<const rddl_fluent*>& fluents) {
     SharedKey key;
     std::map<std::vector<std::string>, int> panels;
     int most = 1;
     for (const rddl_fluent* const fluent : fluents) {
         if (fluent->scalar == RDDL_BOOL) key.of_bools = true;
         if (fluent->scalar == RDDL_BOOL || !has_lines(*fluent) || fluent->rank == 0) continue;
-        std::vector<std::string> names = names_of_lines(moment, *fluent);
+        std::vector<std::string> names = names_of_lines(snapshot, *fluent);
         const int count = ++panels[names];
         if (count <= most) continue;
         most = count;
@@ -302,23 +305,23 @@ void draw_shared_key(Canvas& canvas, const Box& row, const SharedKey& key) {
     if (!key.lines.empty()) draw_key_of_lines(canvas, rest, key.lines);
 }
 
-void draw(Canvas& canvas, const Box& whole, const Moment& moment) {
-    std::vector<const rddl_fluent*> fluents = state_fluents(moment.problem());
+void draw(Canvas& canvas, const Box& whole, const Snapshot& snapshot) {
+    std::vector<const rddl_fluent*> fluents = state_fluents(snapshot.problem());
     const std::size_t left_out = fluents.size() > most_panels ? fluents.size() - most_panels : 0;
     fluents.resize(fluents.size() - left_out);
     const bool are_many = fluents.size() >= many_panels;
     // Below stand the numbers of the axis, and a row for all panels.
     const Box area = are_many ? whole.above(28) : whole;
     const std::vector<Box> boxes = panel_boxes(area, fluents.size(), 3, 10);
-    const Axis axis = axis_of(moment);
-    const SharedKey key = are_many ? shared_key_of(moment, fluents) : SharedKey{};
+    const Axis axis = axis_of(snapshot);
+    const SharedKey key = are_many ? shared_key_of(snapshot, fluents) : SharedKey{};
     double names = 0;  // the same in all panels, so that steps stand below steps
     for (const rddl_fluent* const fluent : fluents)
-        names = std::max(names, names_width(canvas, moment, *fluent));
+        names = std::max(names, names_width(canvas, snapshot, *fluent));
     for (std::size_t i = 0; i < fluents.size(); ++i)
-        draw_panel(canvas, boxes[i], moment, *fluents[i], axis,
+        draw_panel(canvas, boxes[i], snapshot, *fluents[i], axis,
                    {names, !are_many || is_lowest(boxes, i), !are_many && boxes[i].height > 70,
-                    are_many, key.has(moment, *fluents[i])});
+                    are_many, key.has(snapshot, *fluents[i])});
     Box below = whole.lowest(12);
     if (left_out > 0) {
         const std::string more = "and " + std::to_string(left_out) + " more fluents";

@@ -46,11 +46,11 @@ struct Building {
     }
 };
 
-Building building(const Box& area, const Moment& moment) {
-    const Values& at = moment["elevator-at-floor"];
+Building building(const Box& area, const Snapshot& snapshot) {
+    const Values& at = snapshot["elevator-at-floor"];
     const double width = std::min(at.count(0) * 90.0, area.width * 0.55);
     return {area.after(40).left(width), area.after(40 + width + 16), at.count(0), at.count(1),
-            order_of(moment["ADJACENT-UP"])};
+            order_of(snapshot["ADJACENT-UP"])};
 }
 
 void draw_floors(Canvas& canvas, const Building& building, const Values& at) {
@@ -71,47 +71,47 @@ void draw_floors(Canvas& canvas, const Building& building, const Values& at) {
 }
 
 // Draws the cabin; returns the place for people inside.
-Box draw_cabin(Canvas& canvas, const Box& shaft, const Moment& moment, int elevator) {
+Box draw_cabin(Canvas& canvas, const Box& shaft, const Snapshot& snapshot, int elevator) {
     const Box cabin = shaft.inset(8, std::min(shaft.height * 0.08, 5.0));
-    const bool closed = moment["elevator-closed"].is(elevator);
+    const bool closed = snapshot["elevator-closed"].is(elevator);
     canvas.fill(cabin, closed ? rgb(0xc9dcec) : rgb(0xfdf3cf), 3);
     canvas.outline(cabin, colors::blue, 2, 3);
     if (closed)
         canvas.line({cabin.center().x, cabin.y}, {cabin.center().x, cabin.bottom()}, colors::blue,
                     1);
-    triangle(canvas, {cabin.right() - 9, cabin.y + 9}, 5, moment["elevator-dir-up"].is(elevator),
+    triangle(canvas, {cabin.right() - 9, cabin.y + 9}, 5, snapshot["elevator-dir-up"].is(elevator),
              colors::ink);
     return cabin.before(12).inset(2, 0);
 }
 
 // The action of an elevator in a word, below its shaft.
-std::string action_of(const Moment& moment, int elevator) {
-    if (!moment.acts()) return {};
+std::string action_of(const Snapshot& snapshot, int elevator) {
+    if (!snapshot.acts()) return {};
     for (const auto& [fluent, word] :
          {std::pair{"move-current-dir", "move"}, std::pair{"open-door", "open"},
           std::pair{"open-door-going-up", "open up"},
           std::pair{"open-door-going-down", "open down"}, std::pair{"close-door", "close"}})
-        if (moment.has(fluent) && moment[fluent].is(elevator)) return word;
+        if (snapshot.has(fluent) && snapshot[fluent].is(elevator)) return word;
     return "–";
 }
 
-using People = void (*)(Canvas&, const Building&, const Moment&, int elevator, const Box& cabin);
-using Waiting = void (*)(Canvas&, const Building&, const Moment&, int floor);
+using People = void (*)(Canvas&, const Building&, const Snapshot&, int elevator, const Box& cabin);
+using Waiting = void (*)(Canvas&, const Building&, const Snapshot&, int floor);
 
-void draw_building(Canvas& canvas, const Box& area, const Moment& moment, People people,
+void draw_building(Canvas& canvas, const Box& area, const Snapshot& snapshot, People people,
                    Waiting waiting) {
-    const Building house = building(area.above(38), moment);
-    const Values& at = moment["elevator-at-floor"];
+    const Building house = building(area.above(38), snapshot);
+    const Values& at = snapshot["elevator-at-floor"];
     draw_floors(canvas, house, at);
-    for (int f = 0; f < house.floors; ++f) waiting(canvas, house, moment, f);
+    for (int f = 0; f < house.floors; ++f) waiting(canvas, house, snapshot, f);
     for (int e = 0; e < house.elevators; ++e) {
         for (int f = 0; f < house.floors; ++f) {
             if (!at.is(e, f)) continue;
-            const Box cabin = draw_cabin(canvas, house.shaft(e, f), moment, e);
-            people(canvas, house, moment, e, cabin);
+            const Box cabin = draw_cabin(canvas, house.shaft(e, f), snapshot, e);
+            people(canvas, house, snapshot, e, cabin);
         }
         const Box shaft = house.shaft(e, 0);
-        const std::string action = action_of(moment, e);
+        const std::string action = action_of(snapshot, e);
         label(canvas, {shaft.x, house.shafts.bottom() + 2, shaft.width, 15},
               action.empty() ? at.object(0, e) : at.object(0, e) + (": " + action),
               {.size = 11, .align = Align::Center});
@@ -120,13 +120,13 @@ void draw_building(Canvas& canvas, const Box& area, const Moment& moment, People
     legend(canvas, area.lowest(14), entries);
 }
 
-void draw_counted(Canvas& canvas, const Box& area, const Moment& moment) {
+void draw_counted(Canvas& canvas, const Box& area, const Snapshot& snapshot) {
     draw_building(
-        canvas, area, moment,
-        [](Canvas& on, const Building&, const Moment& now, int e, const Box& cabin) {
+        canvas, area, snapshot,
+        [](Canvas& on, const Building&, const Snapshot& now, int e, const Box& cabin) {
             draw_people(on, cabin, static_cast<int>(now["num-person-in-elevator"](e)), colors::ink);
         },
-        [](Canvas& on, const Building& house, const Moment& now, int f) {
+        [](Canvas& on, const Building& house, const Snapshot& now, int f) {
             draw_people(on, house.hall(f), static_cast<int>(now["num-person-waiting"](f)),
                         colors::orange);
         });
@@ -139,16 +139,16 @@ void draw_traveller(Canvas& canvas, const Box& box, double x, bool up, Color col
     triangle(canvas, {x + height * 0.5, box.bottom() - 3 - height * 0.7}, height * 0.18, up, color);
 }
 
-void draw_directed(Canvas& canvas, const Box& area, const Moment& moment) {
+void draw_directed(Canvas& canvas, const Box& area, const Snapshot& snapshot) {
     draw_building(
-        canvas, area, moment,
-        [](Canvas& on, const Building&, const Moment& now, int e, const Box& cabin) {
+        canvas, area, snapshot,
+        [](Canvas& on, const Building&, const Snapshot& now, int e, const Box& cabin) {
             if (now["person-in-elevator-going-up"].is(e))
                 draw_traveller(on, cabin, cabin.x + cabin.width * 0.2, true, colors::ink);
             if (now["person-in-elevator-going-down"].is(e))
                 draw_traveller(on, cabin, cabin.x + cabin.width * 0.62, false, colors::ink);
         },
-        [](Canvas& on, const Building& house, const Moment& now, int f) {
+        [](Canvas& on, const Building& house, const Snapshot& now, int f) {
             const Box hall = house.hall(f);
             if (now["person-waiting-up"].is(f))
                 draw_traveller(on, hall, hall.x + 20, true, colors::orange);

@@ -6,8 +6,8 @@ namespace rddl::render::game_of_life {
 
 namespace {
 
-void draw(Canvas& canvas, const Box& area, const Moment& moment) {
-    const Values &alive = moment["alive"], &noise = moment["NOISE-PROB"];
+void draw(Canvas& canvas, const Box& area, const Snapshot& snapshot) {
+    const Values &alive = snapshot["alive"], &noise = snapshot["NOISE-PROB"];
     const int columns = alive.count(0), rows = alive.count(1);
     const Grid grid(area.above(20), columns, rows);
     for (int x = 0; x < columns; ++x)
@@ -15,7 +15,7 @@ void draw(Canvas& canvas, const Box& area, const Moment& moment) {
             const Box cell = grid.cell(x, rows - 1 - y).inset(1);
             canvas.fill(cell, mix(colors::faint, rgb(0xf3d9b8), std::min(noise(x, y) * 4, 1.0)), 3);
             if (alive.is(x, y)) canvas.fill(cell.inset(cell.width * 0.12), colors::blue, 5);
-            if (moment.acts() && moment["set"].is(x, y))
+            if (snapshot.acts() && snapshot["set"].is(x, y))
                 canvas.outline(cell, colors::vermilion, 3, 3);
         }
     const Entry entries[] = {{"alive", colors::blue},

@@ -33,8 +33,8 @@ Shape shape_of(const Values& values, const Box& box) {
     return {(count + columns - 1) / columns, columns, true};
 }
 
-std::string row_name(const Moment& moment, const Values& values, const Shape& shape, int row) {
-    const std::string name = objects_of(moment, *values.fluent, row * shape.columns);
+std::string row_name(const Snapshot& snapshot, const Values& values, const Shape& shape, int row) {
+    const std::string name = objects_of(snapshot, *values.fluent, row * shape.columns);
     return shape.wrapped ? name : name.substr(0, name.rfind(", "));
 }
 
@@ -43,23 +43,23 @@ bool has_row_names(const Values& values, const Shape& shape) {
 }
 
 // The room for the names of rows.
-double row_names_width(const Canvas& canvas, const Moment& moment, const Values& values,
+double row_names_width(const Canvas& canvas, const Snapshot& snapshot, const Values& values,
                        const Shape& shape) {
     if (!has_row_names(values, shape)) return 0;
     double widest = 0;
     const int every = std::max(shape.rows / 30, 1);
     for (int r = 0; r < shape.rows; r += every)
         widest =
-            std::max(widest, canvas.text_width(row_name(moment, values, shape, r), names_size));
+            std::max(widest, canvas.text_width(row_name(snapshot, values, shape, r), names_size));
     return std::clamp(widest + 8, 12.0, 72.0);
 }
 
-void draw_row_names(Canvas& canvas, const Grid& grid, const Moment& moment, const Values& values,
-                    const Shape& shape) {
+void draw_row_names(Canvas& canvas, const Grid& grid, const Snapshot& snapshot,
+                    const Values& values, const Shape& shape) {
     const int every = static_cast<int>(std::ceil(10 / grid.cell(0, 0).height));
     for (int r = 0; r < grid.rows; r += every)
         canvas.text({grid.box.x - 4, grid.cell(0, r).center().y},
-                    shortened_name(canvas, row_name(moment, values, shape, r), names_size, 64),
+                    shortened_name(canvas, row_name(snapshot, values, shape, r), names_size, 64),
                     {.size = names_size, .color = colors::muted, .align = Align::Right});
 }
 
@@ -111,9 +111,10 @@ void draw_cells(Canvas& canvas, const Grid& grid, const Values& values, const Ra
     }
 }
 
-void draw_grid(Canvas& canvas, const Box& box, const Moment& moment, const rddl_fluent& fluent) {
-    const Values& values = moment.values(fluent);
-    const Range range = range_of(moment, fluent);
+void draw_grid(Canvas& canvas, const Box& box, const Snapshot& snapshot,
+               const rddl_fluent& fluent) {
+    const Values& values = snapshot.values(fluent);
+    const Range range = range_of(snapshot, fluent);
     // A key stands at its right.
     const double room = fluent.rank > 0 ? box.width * 0.75 : box.width;
     const std::string title = shortened(canvas, fluent.name, 12, room);
@@ -127,7 +128,7 @@ void draw_grid(Canvas& canvas, const Box& box, const Moment& moment, const rddl_
     if (fluent.rank > 0)
         draw_key(canvas, box.top(16).after(canvas.text_width(title, 12) + 12), values, range,
                  shape.wrapped ? box.lowest(14) : Box{});
-    const Box cells = inside.after(row_names_width(canvas, moment, values, shape));
+    const Box cells = inside.after(row_names_width(canvas, snapshot, values, shape));
     const Box used = shape.rows == 1 ? cells.top(std::min(cells.height, 40.0)) : cells;
     // Squares look like places, unless they are too small to see.
     constexpr double smallest = 6;
@@ -135,14 +136,14 @@ void draw_grid(Canvas& canvas, const Box& box, const Moment& moment, const rddl_
         fluent.rank >= 2 && Grid(used, shape.columns, shape.rows).cell(0, 0).width >= smallest;
     const Grid grid(used, shape.columns, shape.rows, square);
     draw_cells(canvas, grid, values, range);
-    if (has_row_names(values, shape)) draw_row_names(canvas, grid, moment, values, shape);
+    if (has_row_names(values, shape)) draw_row_names(canvas, grid, snapshot, values, shape);
     if (fluent.rank > 0 && !shape.wrapped) draw_column_names(canvas, grid, values);
 }
 
-void draw(Canvas& canvas, const Box& whole, const Moment& moment) {
+void draw(Canvas& canvas, const Box& whole, const Snapshot& snapshot) {
     // Grids get the room; fluents with fewer parameters stand below them.
     std::vector<const rddl_fluent*> grids, strips;
-    for (const rddl_fluent* const fluent : state_fluents(moment.problem()))
+    for (const rddl_fluent* const fluent : state_fluents(snapshot.problem()))
         (fluent->rank >= 2 ? grids : strips).push_back(fluent);
     constexpr std::size_t most_grids = 24, most_strips = 12;
     const std::size_t all = grids.size() + strips.size();
@@ -157,14 +158,14 @@ void draw(Canvas& canvas, const Box& whole, const Moment& moment) {
     const std::vector<Box> grid_boxes =
         panel_boxes(area.above(strips_height), grids.size(), 1.2, 14);
     for (std::size_t i = 0; i < grids.size(); ++i)
-        draw_grid(canvas, grid_boxes[i], moment, *grids[i]);
+        draw_grid(canvas, grid_boxes[i], snapshot, *grids[i]);
     const double shape = rows == 0 ? 1
                                    : (area.width / static_cast<double>(columns)) /
                                          (strips_height / static_cast<double>(rows));
     const std::vector<Box> strip_boxes =
         panel_boxes(area.lowest(strips_height), strips.size(), shape, 10);
     for (std::size_t i = 0; i < strips.size(); ++i)
-        draw_grid(canvas, strip_boxes[i], moment, *strips[i]);
+        draw_grid(canvas, strip_boxes[i], snapshot, *strips[i]);
     if (left_out > 0)
         canvas.text({whole.right(), whole.bottom() + 1},
                     "and " + std::to_string(left_out) + " more fluents",

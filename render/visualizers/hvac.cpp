@@ -91,44 +91,45 @@ void draw_key(Canvas& canvas, const Box& box) {
     legend(canvas, box, entries);
 }
 
-std::string action_note(const Moment& moment, std::string_view fluent, int i) {
-    if (!moment.acts() || !moment.has(fluent)) return {};
-    const double value = moment[fluent](i);
+std::string action_note(const Snapshot& snapshot, std::string_view fluent, int i) {
+    if (!snapshot.acts() || !snapshot.has(fluent)) return {};
+    const double value = snapshot[fluent](i);
     return "+" + number_text(std::round(std::abs(value) * 10) / 10);
 }
 
 // Temperatures from cold to hot that all thermometers show.
-Scale temperatures(const Moment& moment, std::initializer_list<std::string_view> fluents,
+Scale temperatures(const Snapshot& snapshot, std::initializer_list<std::string_view> fluents,
                    double low, double high) {
     Extent extent;
     extent.add(low - 4);
     extent.add(high + 4);
     for (const std::string_view name : fluents)
-        for (const Step* const step : {&moment.steps().front(), &moment.now()})
-            for (const double value : moment.values_in(*step, *moment.world().find(name)).numbers)
+        for (const Step* const step : {&snapshot.steps().front(), &snapshot.now()})
+            for (const double value :
+                 snapshot.values_in(*step, *snapshot.world().find(name)).numbers)
                 extent.add(value);
     const Extent rounded = extent.rounded();
     return {rounded.low, rounded.high};
 }
 
-void draw_with_heaters(Canvas& canvas, const Box& area, const Moment& moment) {
-    const Values &zone = moment["temp-zone"], &heater = moment["temp-heater"];
-    const double low = moment.number("TEMP-ZONE-MIN"), high = moment.number("TEMP-ZONE-MAX");
-    const Scale scale = temperatures(moment, {"temp-zone", "temp-heater"}, low, high);
+void draw_with_heaters(Canvas& canvas, const Box& area, const Snapshot& snapshot) {
+    const Values &zone = snapshot["temp-zone"], &heater = snapshot["temp-heater"];
+    const double low = snapshot.number("TEMP-ZONE-MIN"), high = snapshot.number("TEMP-ZONE-MAX");
+    const Scale scale = temperatures(snapshot, {"temp-zone", "temp-heater"}, low, high);
     std::vector<Thermometer> zones, heaters;
     for (int i = 0; i < zone.count(0); ++i)
-        zones.push_back({zone.object(0, i), zone(i), low, high, action_note(moment, "fan-in", i),
-                         moment.has("occupied") && moment["occupied"].is(i)});
+        zones.push_back({zone.object(0, i), zone(i), low, high, action_note(snapshot, "fan-in", i),
+                         snapshot.has("occupied") && snapshot["occupied"].is(i)});
     for (int i = 0; i < heater.count(0); ++i)
         heaters.push_back({heater.object(0, i), heater(i), NAN, NAN,
-                           action_note(moment, "heat-input", i), false});
+                           action_note(snapshot, "heat-input", i), false});
     const Box body = area.above(20);
     const double height = (body.height - 54 - 42 - 42 - 40) / 2;
     const std::vector<Box> above =
         row_of_boxes({body.x, body.y + 54, body.width, height}, zones.size());
     const std::vector<Box> below =
         row_of_boxes({body.x, body.bottom() - 42 - height, body.width, height}, heaters.size());
-    const Values& warms = moment["ADJ-HEATER"];
+    const Values& warms = snapshot["ADJ-HEATER"];
     for (int h = 0; h < heater.count(0); ++h)
         for (int z = 0; z < zone.count(0); ++z) {
             if (!warms.is(h, z)) continue;
@@ -137,18 +138,19 @@ void draw_with_heaters(Canvas& canvas, const Box& area, const Moment& moment) {
             canvas.line({from.center().x, from.y}, {to.center().x, to.bottom() + 42}, colors::rule,
                         1.5);
         }
-    draw_zones(canvas, above, moment["ADJ-ZONES"], zones, scale);
+    draw_zones(canvas, above, snapshot["ADJ-ZONES"], zones, scale);
     for (std::size_t i = 0; i < heaters.size(); ++i)
         draw_thermometer(canvas, below[i], heaters[i], scale);
     draw_key(canvas, area.lowest(14));
 }
 
-void draw_with_air(Canvas& canvas, const Box& area, const Moment& moment) {
-    const Values &space = moment["temp"], &low = moment["TEMP_LOW"], &high = moment["TEMP_UP"];
-    const Scale scale = temperatures(moment, {"temp"}, low.numbers[0], high.numbers[0]);
+void draw_with_air(Canvas& canvas, const Box& area, const Snapshot& snapshot) {
+    const Values &space = snapshot["temp"], &low = snapshot["TEMP_LOW"],
+                 &high = snapshot["TEMP_UP"];
+    const Scale scale = temperatures(snapshot, {"temp"}, low.numbers[0], high.numbers[0]);
     std::vector<Thermometer> spaces;
     for (int i = 0; i < space.count(0); ++i) {
-        std::string note = action_note(moment, "air", i);
+        std::string note = action_note(snapshot, "air", i);
         if (!note.empty()) note = "air " + note;
         spaces.push_back({space.object(0, i), space(i), low(i), high(i), note, false});
     }
@@ -156,7 +158,7 @@ void draw_with_air(Canvas& canvas, const Box& area, const Moment& moment) {
     draw_zones(
         canvas,
         row_of_boxes({body.x, body.y + 70, body.width, body.height - 70 - 60}, spaces.size()),
-        moment["ADJ"], spaces, scale);
+        snapshot["ADJ"], spaces, scale);
     draw_key(canvas, area.lowest(14));
 }
 

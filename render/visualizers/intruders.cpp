@@ -35,11 +35,11 @@ void draw_velocity(Canvas& canvas, Point at, double x, double y, const Plane& pl
     arrow(canvas, at, {at.x + length * x / speed, at.y - length * y / speed}, color, 2);
 }
 
-void draw_plane(Canvas& canvas, const Box& area, const Moment& moment) {
+void draw_plane(Canvas& canvas, const Box& area, const Snapshot& snapshot) {
     Extent across, up;
     across.add(0), across.add(1), up.add(0), up.add(1);
     const auto grow = [&](Extent& extent, std::string_view fluent) {
-        for (const double value : moment[fluent].numbers) extent.add(value);
+        for (const double value : snapshot[fluent].numbers) extent.add(value);
     };
     grow(across, "intruder-x"), grow(across, "camera-x");
     grow(up, "intruder-y"), grow(up, "camera-y");
@@ -49,28 +49,28 @@ void draw_plane(Canvas& canvas, const Box& area, const Moment& moment) {
     field_ticks(canvas, plane);
     draw_key(canvas, area.lowest(14));
     const Canvas::Saved inside = canvas.clipped(plane.box);
-    const Values& left = moment["DANGER-L"];
+    const Values& left = snapshot["DANGER-L"];
     for (int z = 0; z < left.count(0); ++z) {
         // Top and bottom are the names of the limits; which is greater is not said.
-        const double a = moment["DANGER-T"](z), b = moment["DANGER-B"](z);
+        const double a = snapshot["DANGER-T"](z), b = snapshot["DANGER-B"](z);
         const Point from = plane(left(z), std::max(a, b)),
-                    to = plane(moment["DANGER-R"](z), std::min(a, b));
+                    to = plane(snapshot["DANGER-R"](z), std::min(a, b));
         canvas.fill({from.x, from.y, to.x - from.x, to.y - from.y}, danger);
         canvas.outline({from.x, from.y, to.x - from.x, to.y - from.y}, colors::orange, 1.5);
     }
-    const Values& radius = moment["CAMERA-RADIUS"];
+    const Values& radius = snapshot["CAMERA-RADIUS"];
     for (int c = 0; c < radius.count(0); ++c) {
-        const Point at = plane(moment["camera-x"](c), moment["camera-y"](c));
+        const Point at = plane(snapshot["camera-x"](c), snapshot["camera-y"](c));
         canvas.disc(at, plane.length(radius(c)), colors::sky.with_alpha(0.35));
         canvas.ring(at, plane.length(radius(c)), colors::sky, 1.5);
-        draw_velocity(canvas, at, moment["camera-vx"](c), moment["camera-vy"](c), plane,
+        draw_velocity(canvas, at, snapshot["camera-vx"](c), snapshot["camera-vy"](c), plane,
                       colors::blue);
         draw_camera(canvas, at, 7);
     }
-    const Values& x = moment["intruder-x"];
+    const Values& x = snapshot["intruder-x"];
     for (int i = 0; i < x.count(0); ++i) {
-        const Point at = plane(x(i), moment["intruder-y"](i));
-        draw_velocity(canvas, at, moment["intruder-vx"](i), moment["intruder-vy"](i), plane,
+        const Point at = plane(x(i), snapshot["intruder-y"](i));
+        draw_velocity(canvas, at, snapshot["intruder-vx"](i), snapshot["intruder-vy"](i), plane,
                       colors::vermilion);
         canvas.disc(at, 6, colors::vermilion);
         canvas.text({at.x + 8, at.y + 10}, x.object(0, i),
@@ -83,9 +83,9 @@ Point beside(const Box& cell, int number, int count) {
     return {cell.x + cell.width * (number + 1) / (count + 1), cell.center().y};
 }
 
-void draw_grid(Canvas& canvas, const Box& area, const Moment& moment) {
-    const Values& zone = moment["IS-DANGER-ZONE"];
-    const Values &intruder = moment["intruder-at"], &camera = moment["camera-at"];
+void draw_grid(Canvas& canvas, const Box& area, const Snapshot& snapshot) {
+    const Values& zone = snapshot["IS-DANGER-ZONE"];
+    const Values &intruder = snapshot["intruder-at"], &camera = snapshot["camera-at"];
     const int columns = zone.count(0), rows = zone.count(1);
     const Grid grid(area.above(20), columns, rows);
     for (int x = 0; x < columns; ++x)

@@ -36,19 +36,19 @@ Point free_place(Point middle, double distance, std::span<const Point> taken) {
     return best;
 }
 
-void draw(Canvas& canvas, const Box& area, const Moment& moment) {
-    const Values &mineral_x = moment["MINERAL-POS-X"], &mineral_y = moment["MINERAL-POS-Y"];
-    const Values &value = moment["MINERAL-VALUE"], &harvested = moment["mineral-harvested"];
+void draw(Canvas& canvas, const Box& area, const Snapshot& snapshot) {
+    const Values &mineral_x = snapshot["MINERAL-POS-X"], &mineral_y = snapshot["MINERAL-POS-Y"];
+    const Values &value = snapshot["MINERAL-VALUE"], &harvested = snapshot["mineral-harvested"];
     Extent across, up;
-    const double reach = greatest(moment["MINERAL-AREA"]);
+    const double reach = greatest(snapshot["MINERAL-AREA"]);
     for (int i = 0; i < mineral_x.count(0); ++i) {
         across.add(mineral_x(i) - reach), across.add(mineral_x(i) + reach);
         up.add(mineral_y(i) - reach), up.add(mineral_y(i) + reach);
     }
-    for (const Step& step : moment.steps()) {
-        for (const double x : moment.values_in(step, *moment.world().find("pos-x")).numbers)
+    for (const Step& step : snapshot.steps()) {
+        for (const double x : snapshot.values_in(step, *snapshot.world().find("pos-x")).numbers)
             across.add(x);
-        for (const double y : moment.values_in(step, *moment.world().find("pos-y")).numbers)
+        for (const double y : snapshot.values_in(step, *snapshot.world().find("pos-y")).numbers)
             up.add(y);
     }
     across = across.rounded();
@@ -62,7 +62,7 @@ void draw(Canvas& canvas, const Box& area, const Moment& moment) {
                              {"harvesting", colors::green}};
     legend(canvas, area.lowest(13), entries);
     const Canvas::Saved inside = canvas.clipped(body);
-    const Values &x = moment["pos-x"], &y = moment["pos-y"];
+    const Values &x = snapshot["pos-x"], &y = snapshot["pos-y"];
     std::vector<Point> rovers, taken;
     for (int i = 0; i < x.count(0); ++i) {
         rovers.push_back(plane(x(i), y(i)));
@@ -72,7 +72,7 @@ void draw(Canvas& canvas, const Box& area, const Moment& moment) {
     const double most = greatest(value);
     for (int i = 0; i < mineral_x.count(0); ++i) {
         const Point place = plane(mineral_x(i), mineral_y(i));
-        const double radius = std::max(plane.length(moment["MINERAL-AREA"](i)), 4.0);
+        const double radius = std::max(plane.length(snapshot["MINERAL-AREA"](i)), 4.0);
         const Color ground = mix(rgb(0xfdebc8), colors::orange, most > 0 ? value(i) / most : 0);
         if (!harvested.is(i)) canvas.disc(place, radius, ground);
         canvas.ring(place, radius, harvested.is(i) ? colors::rule : rgb(0xb07a00), 1.5);
@@ -86,21 +86,22 @@ void draw(Canvas& canvas, const Box& area, const Moment& moment) {
     for (int i = 0; i < x.count(0); ++i) {
         const auto g = static_cast<std::size_t>(i);
         std::vector<Point> way;
-        for (const Step& step : moment.steps())
+        for (const Step& step : snapshot.steps())
             way.push_back(
-                plane(moment.number_in(step, "pos-x", g), moment.number_in(step, "pos-y", g)));
+                plane(snapshot.number_in(step, "pos-x", g), snapshot.number_in(step, "pos-y", g)));
         trail(canvas, way, colors::blue);
         const Point place = rovers[g];
-        if (moment.acts()) {
-            const double px = moment["power-x"](i), py = moment["power-y"](i);
-            const double scale = 30 / std::max(moment["MAX-POWER"](i), 1e-9);
+        if (snapshot.acts()) {
+            const double px = snapshot["power-x"](i), py = snapshot["power-y"](i);
+            const double scale = 30 / std::max(snapshot["MAX-POWER"](i), 1e-9);
             arrow(canvas, place, {place.x + px * scale, place.y - py * scale}, colors::vermilion,
                   2);
         }
         canvas.fill({place.x - 8, place.y - 6, 16, 12}, colors::blue, 3);
         for (const double dx : {-6.0, 0.0, 6.0})
             canvas.disc({place.x + dx, place.y + 7}, 3, colors::ink);
-        if (moment.acts() && moment["harvest"].is(i)) canvas.ring(place, 15, colors::green, 2.5);
+        if (snapshot.acts() && snapshot["harvest"].is(i))
+            canvas.ring(place, 15, colors::green, 2.5);
         canvas.text(name_place(place), x.object(0, i),
                     {.size = 10, .color = colors::ink, .halo = true});
     }

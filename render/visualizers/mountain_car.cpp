@@ -11,11 +11,11 @@ namespace rddl::render::mountain_car {
 
 namespace {
 
-std::vector<Point> valley(const Moment& moment) {
+std::vector<Point> valley(const Snapshot& snapshot) {
     std::vector<Point> line;
-    if (moment.has("X-START|LEFT-X")) {
-        const Values &x0 = moment["X-START|LEFT-X"], &y0 = moment["Y-START|LEFT-Y"];
-        const Values &x1 = moment["X-END|RIGHT-X"], &y1 = moment["Y-END|RIGHT-Y"];
+    if (snapshot.has("X-START|LEFT-X")) {
+        const Values &x0 = snapshot["X-START|LEFT-X"], &y0 = snapshot["Y-START|LEFT-Y"];
+        const Values &x1 = snapshot["X-END|RIGHT-X"], &y1 = snapshot["Y-END|RIGHT-Y"];
         for (int i = 0; i < x0.count(0); ++i) {
             line.push_back({x0(i), y0(i)});
             line.push_back({x1(i), y1(i)});
@@ -23,8 +23,8 @@ std::vector<Point> valley(const Moment& moment) {
         std::stable_sort(line.begin(), line.end(), [](Point a, Point b) { return a.x < b.x; });
         return line;
     }
-    const double low = moment.number("MIN-POS"), high = moment.number("MAX-POS");
-    const double depth = moment.number_or("DEPTH", 0);
+    const double low = snapshot.number("MIN-POS"), high = snapshot.number("MAX-POS");
+    const double depth = snapshot.number_or("DEPTH", 0);
     for (int i = 0; i <= 100; ++i) {
         const double x = low + (high - low) * i / 100;
         line.push_back({x, depth * std::sin(3 * x)});
@@ -81,8 +81,8 @@ void draw_velocity(Canvas& canvas, const Box& box, double velocity, double most)
     label(canvas, box.rightmost(62), number_text(velocity), {.size = 11, .align = Align::Right});
 }
 
-void draw(Canvas& canvas, const Box& area, const Moment& moment) {
-    const std::vector<Point> line = valley(moment);
+void draw(Canvas& canvas, const Box& area, const Snapshot& snapshot) {
+    const std::vector<Point> line = valley(snapshot);
     double lowest = line.front().y, highest = lowest;
     for (const Point point : line) {
         lowest = std::min(lowest, point.y);
@@ -109,15 +109,17 @@ void draw(Canvas& canvas, const Box& area, const Moment& moment) {
     canvas.polyline(std::span(earth).subspan(1, line.size() + 2), rgb(0xa9b99c), 1.5);
     canvas.polyline(std::span(earth).subspan(2, line.size()), rgb(0x6f8a5f), 2.5);
 
-    const double goal = moment.number("GOAL-MIN|FLAG"), position = moment.number("pos|position");
+    const double goal = snapshot.number("GOAL-MIN|FLAG"),
+                 position = snapshot.number("pos|position");
     draw_flag(canvas, place(goal, ground_at(line, goal).height));
     const Ground ground = ground_at(line, position);
-    const double push =
-        moment.acts() ? moment.number("action|throttle") - moment.default_of("action|throttle") : 0;
+    const double push = snapshot.acts() ? snapshot.number("action|throttle") -
+                                              snapshot.default_of("action|throttle")
+                                        : 0;
     const double drawn_slope = ground.slope * factor * 1.09 * width / view.width;
     draw_car(canvas, place(position, ground.height), drawn_slope, push);
-    draw_velocity(canvas, area.lowest(18), moment.number("vel|velocity"),
-                  moment.number_or("MAX-VEL|MAX-SPEED", 0.07));
+    draw_velocity(canvas, area.lowest(18), snapshot.number("vel|velocity"),
+                  snapshot.number_or("MAX-VEL|MAX-SPEED", 0.07));
 }
 
 }  // namespace

@@ -9,17 +9,17 @@ namespace rddl::render::navigation {
 
 namespace {
 
-void draw(Canvas& canvas, const Box& area, const Moment& moment) {
-    const Values &goal = moment["GOAL"], &center = moment["DECELERATION_ZONE_CENTER"];
-    const Values &decay = moment["DECELERATION_ZONE_DECAY"], &place = moment["location"];
+void draw(Canvas& canvas, const Box& area, const Snapshot& snapshot) {
+    const Values &goal = snapshot["GOAL"], &center = snapshot["DECELERATION_ZONE_CENTER"];
+    const Values &decay = snapshot["DECELERATION_ZONE_DECAY"], &place = snapshot["location"];
     const int second = place.count(0) > 1 ? 1 : 0;
     Extent across, up;
     const auto add = [&](double x, double y) {
         across.add(x), up.add(y);
     };
-    for (const Step& step : moment.steps())
-        add(moment.number_in(step, "location", 0),
-            moment.number_in(step, "location", static_cast<std::size_t>(second)));
+    for (const Step& step : snapshot.steps())
+        add(snapshot.number_in(step, "location", 0),
+            snapshot.number_in(step, "location", static_cast<std::size_t>(second)));
     add(goal(0), goal(second));
     for (int z = 0; z < center.count(0); ++z) add(center(z, 0), center(z, second));
     across = across.rounded();
@@ -44,13 +44,14 @@ void draw(Canvas& canvas, const Box& area, const Moment& moment) {
     canvas.ring(target, 10, colors::green, 2.5);
     canvas.disc(target, 4, colors::green);
     std::vector<Point> way;
-    for (const Step& step : moment.steps())
-        way.push_back(plane(moment.number_in(step, "location", 0),
-                            moment.number_in(step, "location", static_cast<std::size_t>(second))));
+    for (const Step& step : snapshot.steps())
+        way.push_back(
+            plane(snapshot.number_in(step, "location", 0),
+                  snapshot.number_in(step, "location", static_cast<std::size_t>(second))));
     trail(canvas, way, colors::blue, 2.5);
     const Point now = way.back();
-    if (moment.acts()) {
-        const Values& move = moment["move"];
+    if (snapshot.acts()) {
+        const Values& move = snapshot["move"];
         arrow(canvas, now, {now.x + move(0) * 34, now.y - move(second) * 34}, colors::vermilion,
               2.5);
     }

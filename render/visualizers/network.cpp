@@ -9,8 +9,8 @@ namespace rddl::render::network {
 
 namespace {
 
-void draw(Canvas& canvas, const Box& area, const Moment& moment) {
-    const Values &running = moment["running"], &connected = moment["CONNECTED|LINK"];
+void draw(Canvas& canvas, const Box& area, const Snapshot& snapshot) {
+    const Values &running = snapshot["running"], &connected = snapshot["CONNECTED|LINK"];
     const int count = running.count(0);
     const Box body = area.above(20);
     const Point center = body.center();
@@ -33,7 +33,7 @@ void draw(Canvas& canvas, const Box& area, const Moment& moment) {
             canvas.line({at.x - d, at.y - d}, {at.x + d, at.y + d}, colors::white, 2);
             canvas.line({at.x - d, at.y + d}, {at.x + d, at.y - d}, colors::white, 2);
         }
-        if (moment.acts() && moment["reboot"].is(c))
+        if (snapshot.acts() && snapshot["reboot"].is(c))
             canvas.ring(at, size + 3.5, colors::orange, 3.5);
         const Point outside = on_circle(center, radius + size + 11, c, count);
         canvas.text(outside, running.object(0, c),

@@ -9,11 +9,11 @@ namespace rddl::render::power_gen {
 
 namespace {
 
-double demand(const Moment& moment) {
+double demand(const Snapshot& snapshot) {
     const double from_mild =
-        moment.number("temperature") - moment.number_or("MIN-DEMAND-TEMP", 11.7);
-    return moment.number_or("MIN-CONSUMPTION", 2) +
-           moment.number_or("DEMAND-EXP-COEF", 0.01) * from_mild * from_mild;
+        snapshot.number("temperature") - snapshot.number_or("MIN-DEMAND-TEMP", 11.7);
+    return snapshot.number_or("MIN-CONSUMPTION", 2) +
+           snapshot.number_or("DEMAND-EXP-COEF", 0.01) * from_mild * from_mild;
 }
 
 struct Bar {
@@ -47,9 +47,9 @@ void draw_bar(Canvas& canvas, const Box& box, const Bar& bar, double top) {
           {.size = 10, .color = colors::muted, .align = Align::Center});
 }
 
-std::string cost_note(const Moment& moment, int plant) {
-    if (!moment.has("COST-PER-UNIT")) return {};
-    return "cost " + number_text(moment["COST-PER-UNIT"](plant));
+std::string cost_note(const Snapshot& snapshot, int plant) {
+    if (!snapshot.has("COST-PER-UNIT")) return {};
+    return "cost " + number_text(snapshot["COST-PER-UNIT"](plant));
 }
 
 void draw_bars(Canvas& canvas, const Box& area, const std::vector<Bar>& bars, double top) {
@@ -62,14 +62,14 @@ void draw_bars(Canvas& canvas, const Box& area, const std::vector<Bar>& bars, do
                  bars[i], top);
 }
 
-void draw(Canvas& canvas, const Box& area, const Moment& moment) {
-    const Values &made = moment["prevProd"], &wanted = moment["curProd"];
-    const Values &least = moment["PROD-UNITS-MIN"], &most = moment["PROD-UNITS-MAX"];
+void draw(Canvas& canvas, const Box& area, const Snapshot& snapshot) {
+    const Values &made = snapshot["prevProd"], &wanted = snapshot["curProd"];
+    const Values &least = snapshot["PROD-UNITS-MIN"], &most = snapshot["PROD-UNITS-MAX"];
     std::vector<Bar> plants;
     double top = 1, total = 0;
     for (int i = 0; i < made.count(0); ++i) {
         plants.push_back({made.object(0, i), made(i), least(i), most(i),
-                          moment.acts() ? wanted(i) : NAN, colors::blue, cost_note(moment, i)});
+                          snapshot.acts() ? wanted(i) : NAN, colors::blue, cost_note(snapshot, i)});
         top = std::max({top, most(i), made(i)});
         total += made(i);
     }
@@ -80,13 +80,14 @@ void draw(Canvas& canvas, const Box& area, const Moment& moment) {
 
     canvas.text({right.x + 10, area.y + 6}, "together, and the weather",
                 {.size = 11, .color = colors::muted});
-    const double needed = demand(moment), height = std::max({needed, total, top}) * 1.15;
+    const double needed = demand(snapshot), height = std::max({needed, total, top}) * 1.15;
     draw_bars(canvas, right.left(150),
               {{"made", total, NAN, NAN, NAN, colors::blue},
                {"demand", needed, NAN, NAN, NAN, total < needed ? colors::orange : colors::green}},
               height);
-    const double low = moment.number_or("TEMP-MIN", -30), high = moment.number_or("TEMP-MAX", 40);
-    const double temperature = moment.number("temperature");
+    const double low = snapshot.number_or("TEMP-MIN", -30),
+                 high = snapshot.number_or("TEMP-MAX", 40);
+    const double temperature = snapshot.number("temperature");
     const Box glass{right.right() - 44, right.y, 22, right.height};
     gauge(canvas, glass, (temperature - low) / (high - low), colors::vermilion);
     label(canvas, {glass.x - 24, glass.bottom() + 3, glass.width + 48, 13}, "temperature",

@@ -89,11 +89,12 @@ Axes axes_of(double phi, double theta, double psi) {
             {sth * sps, -sth * cps, cth}};
 }
 
-void draw_drone(Canvas& canvas, const Camera& camera, const Moment& moment, int i, Color color) {
-    const Place at{moment["x"](i), moment["y"](i), moment["z"](i)};
+void draw_drone(Canvas& canvas, const Camera& camera, const Snapshot& snapshot, int i,
+                Color color) {
+    const Place at{snapshot["x"](i), snapshot["y"](i), snapshot["z"](i)};
     // The quadcopter is drawn far too large; otherwise its tilt would be invisible.
     const double span = 19 / camera.factor;
-    const Axes axes = axes_of(moment["phi"](i), moment["theta"](i), moment["psi"](i));
+    const Axes axes = axes_of(snapshot["phi"](i), snapshot["theta"](i), snapshot["psi"](i));
     const auto end = [&](const Place& axis, double distance) {
         return camera(
             {at[0] + axis[0] * distance, at[1] + axis[1] * distance, at[2] + axis[2] * distance});
@@ -109,14 +110,14 @@ void draw_drone(Canvas& canvas, const Camera& camera, const Moment& moment, int 
     canvas.disc(camera(at), 4, colors::ink);
 }
 
-void draw(Canvas& canvas, const Box& area, const Moment& moment) {
+void draw(Canvas& canvas, const Box& area, const Snapshot& snapshot) {
     std::array<Extent, 3> extents;
     const std::array<std::string_view, 3> names{"x", "y", "z"}, targets{"TX", "TY", "TZ"};
     for (std::size_t axis = 0; axis < 3; ++axis) {
-        for (const double value : moment[targets[axis]].numbers) extents[axis].add(value);
-        for (const Step& step : moment.steps())
+        for (const double value : snapshot[targets[axis]].numbers) extents[axis].add(value);
+        for (const Step& step : snapshot.steps())
             for (const double value :
-                 moment.values_in(step, *moment.world().find(names[axis])).numbers)
+                 snapshot.values_in(step, *snapshot.world().find(names[axis])).numbers)
                 extents[axis].add(value);
     }
     extents[2].add(0);
@@ -135,24 +136,25 @@ void draw(Canvas& canvas, const Box& area, const Moment& moment) {
     high[2] = std::max(extents[2].rounded().high, low[2] + widest);
     const Camera camera = camera_for(area.above(34).below(4).inset(30, 0), low, high);
     draw_ground(canvas, camera);
-    const Values& x = moment["x"];
+    const Values& x = snapshot["x"];
     for (int i = 0; i < x.count(0); ++i) {
         const auto g = static_cast<std::size_t>(i);
         const Color color = series_color(g);
-        const Point target = camera({moment["TX"](i), moment["TY"](i), moment["TZ"](i)});
+        const Point target = camera({snapshot["TX"](i), snapshot["TY"](i), snapshot["TZ"](i)});
         canvas.line({target.x - 7, target.y - 7}, {target.x + 7, target.y + 7}, color, 3);
         canvas.line({target.x - 7, target.y + 7}, {target.x + 7, target.y - 7}, color, 3);
         std::vector<Point> way;
-        for (const Step& step : moment.steps())
-            way.push_back(camera({moment.number_in(step, "x", g), moment.number_in(step, "y", g),
-                                  moment.number_in(step, "z", g)}));
+        for (const Step& step : snapshot.steps())
+            way.push_back(
+                camera({snapshot.number_in(step, "x", g), snapshot.number_in(step, "y", g),
+                        snapshot.number_in(step, "z", g)}));
         trail(canvas, way, color);
-        const Point shadow = camera({x(i), moment["y"](i), low[2]});
+        const Point shadow = camera({x(i), snapshot["y"](i), low[2]});
         canvas.dashed_line(way.back(), shadow, colors::rule, 1, 3);
         canvas.disc(shadow, 4, colors::rule);
     }
     for (int i = 0; i < x.count(0); ++i)
-        draw_drone(canvas, camera, moment, i, series_color(static_cast<std::size_t>(i)));
+        draw_drone(canvas, camera, snapshot, i, series_color(static_cast<std::size_t>(i)));
     canvas.text({area.x, area.bottom() - 6},
                 "crosses: targets; dots: places on the ground below; arrows: where the rotors push",
                 {.size = 11, .color = colors::muted});

@@ -8,17 +8,18 @@ namespace rddl::render::race_car {
 
 namespace {
 
-void draw(Canvas& canvas, const Box& area, const Moment& moment) {
-    const Values &x1 = moment["X1"], &y1 = moment["Y1"], &x2 = moment["X2"], &y2 = moment["Y2"];
-    const double goal_x = moment.number("GX"), goal_y = moment.number("GY");
-    const double radius = moment.number("RADIUS");
+void draw(Canvas& canvas, const Box& area, const Snapshot& snapshot) {
+    const Values &x1 = snapshot["X1"], &y1 = snapshot["Y1"], &x2 = snapshot["X2"],
+                 &y2 = snapshot["Y2"];
+    const double goal_x = snapshot.number("GX"), goal_y = snapshot.number("GY");
+    const double radius = snapshot.number("RADIUS");
     Extent across, up;
     for (int i = 0; i < x1.count(0); ++i) {
         across.add(x1(i)), across.add(x2(i));
         up.add(y1(i)), up.add(y2(i));
     }
-    across.add(goal_x - radius), across.add(goal_x + radius), across.add(moment.number("X0"));
-    up.add(goal_y - radius), up.add(goal_y + radius), up.add(moment.number("Y0"));
+    across.add(goal_x - radius), across.add(goal_x + radius), across.add(snapshot.number("X0"));
+    up.add(goal_y - radius), up.add(goal_y + radius), up.add(snapshot.number("Y0"));
     const double margin = 0.04 * std::max(across.high - across.low, up.high - up.low);
     const Plane plane(area.above(18 + room_below).after(room_at_left), across.low - margin,
                       up.low - margin, across.high + margin, up.high + margin);
@@ -31,17 +32,17 @@ void draw(Canvas& canvas, const Box& area, const Moment& moment) {
         canvas.line(plane(x1(i), y1(i)), plane(x2(i), y2(i)), colors::ink, 3);
 
     std::vector<Point> way;
-    for (const Step& step : moment.steps())
-        way.push_back(plane(moment.number_in(step, "x"), moment.number_in(step, "y")));
+    for (const Step& step : snapshot.steps())
+        way.push_back(plane(snapshot.number_in(step, "x"), snapshot.number_in(step, "y")));
     trail(canvas, way, colors::blue);
     const Point car = way.back();
-    const double vx = moment.number("vx"), vy = moment.number("vy");
+    const double vx = snapshot.number("vx"), vy = snapshot.number("vy");
     const double reach = 60 / std::max({1.0, std::abs(vx), std::abs(vy)});
     if (std::hypot(vx, vy) > 1e-6)
         arrow(canvas, car, {car.x + vx * reach, car.y - vy * reach}, colors::sky, 2.5);
-    if (moment.acts()) {
-        const double most = moment.number_or("MAX-F", 1);
-        const double fx = moment.number("fx") / most, fy = moment.number("fy") / most;
+    if (snapshot.acts()) {
+        const double most = snapshot.number_or("MAX-F", 1);
+        const double fx = snapshot.number("fx") / most, fy = snapshot.number("fy") / most;
         arrow(canvas, car, {car.x + fx * 26, car.y - fy * 26}, colors::vermilion, 2.5);
     }
     canvas.disc(car, 6.5, colors::blue);

@@ -19,22 +19,22 @@ std::vector<int> outwards(const Values& position) {
     return order;
 }
 
-void draw(Canvas& canvas, const Box& area, const Moment& moment) {
-    const Values &length = moment["LENGTH"], &x = moment["tip-x"], &y = moment["tip-y"];
+void draw(Canvas& canvas, const Box& area, const Snapshot& snapshot) {
+    const Values &length = snapshot["LENGTH"], &x = snapshot["tip-x"], &y = snapshot["tip-y"];
     const double reach = 1.08 * std::accumulate(length.numbers.begin(), length.numbers.end(), 0.0);
     const Plane plane(area, -reach, -reach, reach, reach);
     const Point base = plane(0, 0);
     canvas.disc(base, plane.length(reach / 1.08), rgb(0xf6f9fc));
-    const Point target = plane(moment.number("TARGET-X"), moment.number("TARGET-Y"));
+    const Point target = plane(snapshot.number("TARGET-X"), snapshot.number("TARGET-Y"));
     canvas.disc(target, 11, rgb(0xbfe3d6));
     canvas.ring(target, 11, colors::green, 2);
     canvas.disc(target, 3, colors::green);
-    const std::vector<int> order = outwards(moment["POS"]);
+    const std::vector<int> order = outwards(snapshot["POS"]);
     std::vector<Point> way;
     const auto tip = static_cast<std::size_t>(order.back());
-    for (const Step& step : moment.steps())
+    for (const Step& step : snapshot.steps())
         way.push_back(
-            plane(moment.number_in(step, "tip-x", tip), moment.number_in(step, "tip-y", tip)));
+            plane(snapshot.number_in(step, "tip-x", tip), snapshot.number_in(step, "tip-y", tip)));
     trail(canvas, way, colors::orange);
     Point joint = base;
     double thickness = 14;
@@ -45,18 +45,18 @@ void draw(Canvas& canvas, const Box& area, const Moment& moment) {
         thickness = std::max(thickness - 2, 6.0);
     }
     joint = base;
-    const double most = moment.number_or("TORQUE-MAX", 0.1);
+    const double most = snapshot.number_or("TORQUE-MAX", 0.1);
     for (const int segment : order) {
         canvas.disc(joint, 5, colors::ink);
-        if (moment.acts()) {
-            const double part = std::clamp(moment["torque"](segment) / most, -1.0, 1.0);
+        if (snapshot.acts()) {
+            const double part = std::clamp(snapshot["torque"](segment) / most, -1.0, 1.0);
             arc_arrow(canvas, joint, 18, M_PI / 2, M_PI / 2 - part * 2.2, colors::ink, 2);
         }
         joint = plane(x(segment), y(segment));
     }
     canvas.disc(joint, 6, colors::orange);
-    const double distance = std::hypot(x(order.back()) - moment.number("TARGET-X"),
-                                       y(order.back()) - moment.number("TARGET-Y"));
+    const double distance = std::hypot(x(order.back()) - snapshot.number("TARGET-X"),
+                                       y(order.back()) - snapshot.number("TARGET-Y"));
     canvas.text({area.x, area.y + 8}, "distance to the target",
                 {.size = 11, .color = colors::muted});
     canvas.text({area.x, area.y + 26}, number_text(distance), {.size = 14});

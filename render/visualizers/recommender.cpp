@@ -14,10 +14,10 @@ double part_of(double value, const Values& all) {
     return *most > *least ? (value - *least) / (*most - *least) : 0.5;
 }
 
-void draw_features(Canvas& canvas, const Box& box, const Moment& moment) {
-    const Values &affinity = moment["CONSUMER-AFFINITY"],
-                 &competence = moment["PROVIDER-COMPETENCE"];
-    const Values &item = moment["item-feature"], &content = moment["consumer-satisfaction"];
+void draw_features(Canvas& canvas, const Box& box, const Snapshot& snapshot) {
+    const Values &affinity = snapshot["CONSUMER-AFFINITY"],
+                 &competence = snapshot["PROVIDER-COMPETENCE"];
+    const Values &item = snapshot["item-feature"], &content = snapshot["consumer-satisfaction"];
     const int second = affinity.count(1) > 1 ? 1 : 0;
     Extent across, up;
     for (const Values* const values : {&affinity, &competence, &item})
@@ -34,8 +34,8 @@ void draw_features(Canvas& canvas, const Box& box, const Moment& moment) {
     const auto place = [&](const Values& values, int i) {
         return Point{x(values(i, 0)), y(values(i, second))};
     };
-    if (moment.acts() && moment.has("recommend")) {
-        const Values& recommend = moment["recommend"];
+    if (snapshot.acts() && snapshot.has("recommend")) {
+        const Values& recommend = snapshot["recommend"];
         for (int c = 0; c < recommend.count(0); ++c)
             for (int i = 0; i < recommend.count(1); ++i)
                 if (recommend.is(c, i))
@@ -51,7 +51,7 @@ void draw_features(Canvas& canvas, const Box& box, const Moment& moment) {
         canvas.disc(at, 4 + 5 * part, sequential_color(0.2 + 0.7 * part));
         canvas.ring(at, 4 + 5 * part, colors::blue, 1);
     }
-    const Values& pleased = moment["provider-satisfaction"];
+    const Values& pleased = snapshot["provider-satisfaction"];
     std::vector<Point> named;  // a name that would lie on another is left out
     for (int p = 0; p < competence.count(0); ++p) {
         const Point at = place(competence, p);
@@ -69,8 +69,8 @@ void draw_features(Canvas& canvas, const Box& box, const Moment& moment) {
     }
 }
 
-void draw_providers(Canvas& canvas, const Box& box, const Moment& moment) {
-    const Values& pleased = moment["provider-satisfaction"];
+void draw_providers(Canvas& canvas, const Box& box, const Snapshot& snapshot) {
+    const Values& pleased = snapshot["provider-satisfaction"];
     canvas.text({box.x, box.y + 6}, "content providers", {.size = 11, .color = colors::muted});
     const int count = pleased.count(0);
     const double height = std::min((box.height - 18) / count, 22.0);
@@ -90,10 +90,10 @@ void draw_providers(Canvas& canvas, const Box& box, const Moment& moment) {
     }
 }
 
-void draw(Canvas& canvas, const Box& area, const Moment& moment) {
+void draw(Canvas& canvas, const Box& area, const Snapshot& snapshot) {
     const Box body = area.above(20);
-    draw_features(canvas, body.before(180), moment);
-    draw_providers(canvas, body.rightmost(166), moment);
+    draw_features(canvas, body.before(180), snapshot);
+    draw_providers(canvas, body.rightmost(166), snapshot);
     const Entry entries[] = {{"consumer, larger if content", colors::sky},
                              {"provider, larger if content", colors::vermilion},
                              {"item", colors::muted},

@@ -44,16 +44,16 @@ std::vector<Box> places(const Box& area, const std::vector<int>& depth) {
 }
 
 // The released part of the water, from 0 to 1.
-double released_part(const Moment& moment, int i) {
-    if (!moment.acts() || !moment.has("release")) return 0;
-    const Values& release = moment["release"];
+double released_part(const Snapshot& snapshot, int i) {
+    if (!snapshot.acts() || !snapshot.has("release")) return 0;
+    const Values& release = snapshot["release"];
     if (release.fluent->scalar == RDDL_BOOL) return release(i);
-    return std::clamp(release(i) / std::max(moment["rlevel|water"](i), 1e-9), 0.0, 1.0);
+    return std::clamp(release(i) / std::max(snapshot["rlevel|water"](i), 1e-9), 0.0, 1.0);
 }
 
 // Without that fluent, reservoirs whose water flows to no other one flow to the sea.
-bool flows_to_sea(const Moment& moment, const Values& connected, int i) {
-    if (moment.has("CONNECTED_TO_SEA")) return moment["CONNECTED_TO_SEA"].is(i);
+bool flows_to_sea(const Snapshot& snapshot, const Values& connected, int i) {
+    if (snapshot.has("CONNECTED_TO_SEA")) return snapshot["CONNECTED_TO_SEA"].is(i);
     for (int to = 0; to < connected.count(1); ++to)
         if (connected.is(i, to)) return false;
     return true;
@@ -66,10 +66,10 @@ void draw_flow(Canvas& canvas, Point from, Point to, double part, bool many) {
 }
 
 // Drops beside the name, more where more rain falls.
-void draw_rain(Canvas& canvas, const Box& box, const Moment& moment, int i) {
+void draw_rain(Canvas& canvas, const Box& box, const Snapshot& snapshot, int i) {
     constexpr double room = 80;  // for the name and the drops
-    if (!moment.has("RAIN_VAR") || box.width < room) return;
-    const Values& variance = moment["RAIN_VAR"];
+    if (!snapshot.has("RAIN_VAR") || box.width < room) return;
+    const Values& variance = snapshot["RAIN_VAR"];
     const double most = *std::max_element(variance.numbers.begin(), variance.numbers.end());
     if (!(most > 0) || !(variance(i) > 0)) return;
     const int drops = std::max(static_cast<int>(std::lround(5 * std::sqrt(variance(i) / most))), 1);
@@ -79,10 +79,10 @@ void draw_rain(Canvas& canvas, const Box& box, const Moment& moment, int i) {
     }
 }
 
-void draw_tank(Canvas& canvas, const Box& box, const Moment& moment, int i) {
-    const Values& levels = moment["rlevel|water"];
-    const double top = std::max(moment["TOP_RES|CAPACITY"](i), 1e-9), level = levels(i);
-    const double low = moment["MIN_LEVEL|SAFE-LOW"](i), high = moment["MAX_LEVEL|SAFE-HIGH"](i);
+void draw_tank(Canvas& canvas, const Box& box, const Snapshot& snapshot, int i) {
+    const Values& levels = snapshot["rlevel|water"];
+    const double top = std::max(snapshot["TOP_RES|CAPACITY"](i), 1e-9), level = levels(i);
+    const double low = snapshot["MIN_LEVEL|SAFE-LOW"](i), high = snapshot["MAX_LEVEL|SAFE-HIGH"](i);
     const bool fine = level >= low && level <= high;
     const auto y = [&](double value) {
         return box.bottom() - box.height * std::clamp(value / top, 0.0, 1.0);
@@ -105,8 +105,8 @@ void draw_tank(Canvas& canvas, const Box& box, const Moment& moment, int i) {
           number_text(std::round(level * 10) / 10), {.size = 11, .align = Align::Center});
 }
 
-void draw(Canvas& canvas, const Box& area, const Moment& moment) {
-    const Values& connected = moment["RES_CONNECT|FLOWS-TO"];
+void draw(Canvas& canvas, const Box& area, const Snapshot& snapshot) {
+    const Values& connected = snapshot["RES_CONNECT|FLOWS-TO"];
     const Box body = area.above(20);
     const Box sea = body.rightmost(40);
     canvas.fill(sea, rgb(0xcfe8f7), 4);
@@ -117,18 +117,18 @@ void draw(Canvas& canvas, const Box& area, const Moment& moment) {
     for (int a = 0; a < count; ++a) {
         const Box& from = tanks[static_cast<std::size_t>(a)];
         const Point mouth{from.right(), from.bottom() - 6};
-        const double part = released_part(moment, a);
+        const double part = released_part(snapshot, a);
         for (int b = 0; b < count; ++b) {
             const Box& to = tanks[static_cast<std::size_t>(b)];
             if (a != b && connected.is(a, b))
                 draw_flow(canvas, mouth, {to.x, to.y + 8}, part, many);
         }
-        if (flows_to_sea(moment, connected, a))
+        if (flows_to_sea(snapshot, connected, a))
             draw_flow(canvas, mouth, {sea.x, mouth.y}, part, many);
     }
     for (int i = 0; i < count; ++i) {
-        draw_tank(canvas, tanks[static_cast<std::size_t>(i)], moment, i);
-        draw_rain(canvas, tanks[static_cast<std::size_t>(i)], moment, i);
+        draw_tank(canvas, tanks[static_cast<std::size_t>(i)], snapshot, i);
+        draw_rain(canvas, tanks[static_cast<std::size_t>(i)], snapshot, i);
     }
     const Entry entries[] = {{"wanted level", rgb(0xe5f3ee)},
                              {"water", colors::sky},

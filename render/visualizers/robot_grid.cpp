@@ -21,7 +21,7 @@ void draw_robot(Canvas& canvas, const Box& cell) {
                 body.width * 0.07);
 }
 
-void draw_move(Canvas& canvas, const Box& cell, const Moment& moment) {
+void draw_move(Canvas& canvas, const Box& cell, const Snapshot& snapshot) {
     struct Direction {
         const char* fluent;
         double x, y;
@@ -30,7 +30,7 @@ void draw_move(Canvas& canvas, const Box& cell, const Moment& moment) {
     for (const auto& [fluent, x, y] :
          {Direction{"move-north", 0, -1}, Direction{"move-south", 0, 1},
           Direction{"move-east", 1, 0}, Direction{"move-west", -1, 0}})
-        if (moment.has(fluent) && moment[fluent].is())
+        if (snapshot.has(fluent) && snapshot[fluent].is())
             arrow(canvas, {c.x + x * cell.width * 0.3, c.y + y * cell.height * 0.3},
                   {c.x + x * cell.width * 0.72, c.y + y * cell.height * 0.72}, colors::vermilion,
                   3);
@@ -45,9 +45,9 @@ struct Map {
     }
 };
 
-Map map_of(const Box& area, const Moment& moment) {
-    const std::vector<int> column = order_of(moment["EAST"]);
-    std::vector<int> row = order_of(moment["NORTH"]);
+Map map_of(const Box& area, const Snapshot& snapshot) {
+    const std::vector<int> column = order_of(snapshot["EAST"]);
+    std::vector<int> row = order_of(snapshot["NORTH"]);
     const int rows = static_cast<int>(row.size());
     for (int& r : row) r = rows - 1 - r;
     return {column, row, Grid(area, static_cast<int>(column.size()), rows)};
@@ -62,9 +62,9 @@ void draw_goal(Canvas& canvas, const Box& cell) {
 }
 
 // The robot where it is, and `ground` for each cell.
-void draw_world(Canvas& canvas, const Box& area, const Moment& moment, auto ground) {
-    const Map map = map_of(area, moment);
-    const Values &robot = moment["robot-at"], &goal = moment["GOAL"];
+void draw_world(Canvas& canvas, const Box& area, const Snapshot& snapshot, auto ground) {
+    const Map map = map_of(area, snapshot);
+    const Values &robot = snapshot["robot-at"], &goal = snapshot["GOAL"];
     for (int x = 0; x < robot.count(0); ++x)
         for (int y = 0; y < robot.count(1); ++y) {
             const Box cell = map.cell(x, y);
@@ -77,16 +77,16 @@ void draw_world(Canvas& canvas, const Box& area, const Moment& moment, auto grou
             if (!robot.is(x, y)) continue;
             is_there = true;
             draw_robot(canvas, map.cell(x, y));
-            if (moment.acts()) draw_move(canvas, map.cell(x, y), moment);
+            if (snapshot.acts()) draw_move(canvas, map.cell(x, y), snapshot);
         }
     if (!is_there)
         canvas.text({area.right(), area.y + 8}, "the robot is gone",
                     {.size = 12, .color = colors::vermilion, .align = Align::Right});
 }
 
-void draw_navigation(Canvas& canvas, const Box& area, const Moment& moment) {
-    const Values& danger = moment["P"];
-    draw_world(canvas, area.above(20), moment, [&](const Box& cell, int x, int y) {
+void draw_navigation(Canvas& canvas, const Box& area, const Snapshot& snapshot) {
+    const Values& danger = snapshot["P"];
+    draw_world(canvas, area.above(20), snapshot, [&](const Box& cell, int x, int y) {
         const Color color = mix(rgb(0xf3f5f7), rgb(0x8a5a2b), danger(x, y));
         canvas.fill(cell, color, 3);
         if (danger(x, y) > 0.005 && cell.width > 30)
@@ -99,10 +99,10 @@ void draw_navigation(Canvas& canvas, const Box& area, const Moment& moment) {
     legend(canvas, area.lowest(14), entries);
 }
 
-void draw_crossing(Canvas& canvas, const Box& area, const Moment& moment) {
-    const Values& obstacle = moment["obstacle-at"];
-    draw_world(canvas, area.above(20), moment, [&](const Box& cell, int x, int y) {
-        const bool is_road = !moment["MIN-YPOS"].is(y) && !moment["MAX-YPOS"].is(y);
+void draw_crossing(Canvas& canvas, const Box& area, const Snapshot& snapshot) {
+    const Values& obstacle = snapshot["obstacle-at"];
+    draw_world(canvas, area.above(20), snapshot, [&](const Box& cell, int x, int y) {
+        const bool is_road = !snapshot["MIN-YPOS"].is(y) && !snapshot["MAX-YPOS"].is(y);
         canvas.fill(cell, is_road ? rgb(0xdfe3e8) : rgb(0xe3efdc), 3);
         if (!obstacle.is(x, y)) return;
         const Box car = cell.inset(cell.width * 0.12, cell.height * 0.26);

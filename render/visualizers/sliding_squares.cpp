@@ -8,8 +8,8 @@ namespace rddl::render::sliding_squares {
 
 namespace {
 
-void draw(Canvas& canvas, const Box& area, const Moment& moment) {
-    const Values &at = moment["at"], &target = moment["TARGET"];
+void draw(Canvas& canvas, const Box& area, const Snapshot& snapshot) {
+    const Values &at = snapshot["at"], &target = snapshot["TARGET"];
     const int columns = at.count(1), rows = at.count(2);
     const Grid grid(area.above(20), columns, rows);
     canvas.fill(grid.box.inset(-4), rgb(0x5b6470), 6);
@@ -26,7 +26,7 @@ void draw(Canvas& canvas, const Box& area, const Moment& moment) {
                              .color = home ? colors::white : colors::ink,
                              .align = Align::Center});
             }
-            if (moment.acts() && moment["activate"].is(x, y))
+            if (snapshot.acts() && snapshot["activate"].is(x, y))
                 canvas.outline(cell.inset(3), colors::vermilion, 4, 6);
         }
     const Entry entries[] = {{"at its place", colors::green},

@@ -17,8 +17,8 @@ void draw_box(Canvas& canvas, const Box& cell, bool stored) {
     canvas.line({box.x, box.bottom()}, {box.right(), box.y}, edge, 1.5);
 }
 
-void draw_move(Canvas& canvas, const Box& cell, const Moment& moment) {
-    const Values& move = moment["move"];
+void draw_move(Canvas& canvas, const Box& cell, const Snapshot& snapshot) {
+    const Values& move = snapshot["move"];
     const std::string_view direction = move.range()->objects[static_cast<int>(move())];
     const double x = direction == "l" ? -1 : direction == "r" ? 1 : 0;
     const double y = direction == "u" ? -1 : direction == "d" ? 1 : 0;
@@ -27,9 +27,9 @@ void draw_move(Canvas& canvas, const Box& cell, const Moment& moment) {
           {c.x + x * cell.width * 0.75, c.y + y * cell.height * 0.75}, colors::vermilion, 3);
 }
 
-void draw(Canvas& canvas, const Box& area, const Moment& moment) {
-    const Values &wall = moment["WALL"], &storage = moment["STORAGE"];
-    const Values &box = moment["box"], &man = moment["man"];
+void draw(Canvas& canvas, const Box& area, const Snapshot& snapshot) {
+    const Values &wall = snapshot["WALL"], &storage = snapshot["STORAGE"];
+    const Values &box = snapshot["box"], &man = snapshot["man"];
     const Grid grid(area.above(20), wall.count(0), wall.count(1));
     // y grows upwards, as the domain's "above" says.
     const auto cell_of = [&](int x, int y) {
@@ -48,7 +48,7 @@ void draw(Canvas& canvas, const Box& area, const Moment& moment) {
             const Box cell = cell_of(x, y);
             person(canvas, {cell.center().x, cell.bottom() - cell.height * 0.12},
                    cell.height * 0.76, colors::blue);
-            if (moment.acts()) draw_move(canvas, cell, moment);
+            if (snapshot.acts()) draw_move(canvas, cell, snapshot);
         }
     const Entry entries[] = {{"box", colors::orange},
                              {"stored, or where to store", colors::green},

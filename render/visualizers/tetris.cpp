@@ -11,15 +11,15 @@ void draw_block(Canvas& canvas, const Box& cell, Color color) {
     canvas.fill(cell.inset(1).top(cell.height * 0.18), colors::white.with_alpha(0.3), 3);
 }
 
-int current_shape(const Moment& moment) {
-    const Values& current = moment["current-shape-type"];
+int current_shape(const Snapshot& snapshot) {
+    const Values& current = snapshot["current-shape-type"];
     for (int s = 0; s < current.count(0); ++s)
         if (current.is(s)) return s;
     return -1;
 }
 
-void draw_shape(Canvas& canvas, const Box& box, const Moment& moment, int shape, int turn) {
-    const Values& shapes = moment["SHAPES"];
+void draw_shape(Canvas& canvas, const Box& box, const Snapshot& snapshot, int shape, int turn) {
+    const Values& shapes = snapshot["SHAPES"];
     const Grid grid(box, shapes.count(2), shapes.count(3));
     for (int x = 0; x < grid.columns; ++x)
         for (int y = 0; y < grid.rows; ++y)
@@ -27,8 +27,8 @@ void draw_shape(Canvas& canvas, const Box& box, const Moment& moment, int shape,
                 draw_block(canvas, grid.cell(x, grid.rows - 1 - y), colors::orange);
 }
 
-void draw(Canvas& canvas, const Box& area, const Moment& moment) {
-    const Values& filled = moment["filled"];
+void draw(Canvas& canvas, const Box& area, const Snapshot& snapshot) {
+    const Values& filled = snapshot["filled"];
     const int columns = filled.count(0), rows = filled.count(1);
     const Box body = area.below(16);
     const Grid board(body.before(190), columns, rows);
@@ -41,25 +41,25 @@ void draw(Canvas& canvas, const Box& area, const Moment& moment) {
             else
                 canvas.fill(cell.inset(1), rgb(0x38434f), 2);
         }
-    const bool acts = moment.acts();
+    const bool acts = snapshot.acts();
     for (int x = 0; x < columns && acts; ++x) {
-        if (!moment["place"].is(x)) continue;
+        if (!snapshot["place"].is(x)) continue;
         const double middle = board.cell(x, 0).center().x;
         arrow(canvas, {middle, board.box.y - 20}, {middle, board.box.y - 5}, colors::vermilion, 3);
     }
     const Box side = body.rightmost(170);
-    const int shape = current_shape(moment);
+    const int shape = current_shape(snapshot);
     canvas.text({side.x, side.y + 6}, "next shape", {.size = 11, .color = colors::muted});
-    if (shape >= 0) draw_shape(canvas, side.below(20).top(110), moment, shape, 0);
+    if (shape >= 0) draw_shape(canvas, side.below(20).top(110), snapshot, shape, 0);
     if (shape >= 0 && acts) {
-        const auto turn = static_cast<int>(moment.number("rotate"));
+        const auto turn = static_cast<int>(snapshot.number("rotate"));
         canvas.text(
             {side.x, side.y + 150},
-            std::string("placed, turned by ") + moment["rotate"].range()->objects[turn] + "°",
+            std::string("placed, turned by ") + snapshot["rotate"].range()->objects[turn] + "°",
             {.size = 11, .color = colors::muted});
-        draw_shape(canvas, side.below(164).top(110), moment, shape, turn);
+        draw_shape(canvas, side.below(164).top(110), snapshot, shape, turn);
     }
-    if (moment.has("game-over") && moment["game-over"].is())
+    if (snapshot.has("game-over") && snapshot["game-over"].is())
         canvas.text(board.box.center(), "game over",
                     {.size = 24, .color = colors::yellow, .align = Align::Center});
 }

@@ -125,8 +125,8 @@ void draw_row(Canvas& canvas, const Box& box, const Row& row, double size) {
           {.size = size, .align = row.is_list ? Align::Left : Align::Right});
 }
 
-void draw(Canvas& canvas, const Box& area, const Moment& moment) {
-    const std::vector<TextLine> texts = state_lines(moment);
+void draw(Canvas& canvas, const Box& area, const Snapshot& snapshot) {
+    const std::vector<TextLine> texts = state_lines(snapshot);
     if (texts.empty()) return;
     const std::vector<Line> lines = measured(canvas, texts);
     const auto [size, columns, rows] = layout_for(lines, area);

@@ -8,9 +8,9 @@ namespace rddl::render::tower_of_hanoi {
 
 namespace {
 
-void draw(Canvas& canvas, const Box& area, const Moment& moment) {
-    const Values &on = moment["disk-on-rod"], &order = moment["disk-order"];
-    const Values &size = moment["SIZE"], &target = moment["TARGET"];
+void draw(Canvas& canvas, const Box& area, const Snapshot& snapshot) {
+    const Values &on = snapshot["disk-on-rod"], &order = snapshot["disk-order"];
+    const Values &size = snapshot["SIZE"], &target = snapshot["TARGET"];
     const int disks = on.count(0), rods = on.count(1);
     const Box body = area.above(30).below(30);
     const double width = body.width / rods;
@@ -37,8 +37,8 @@ void draw(Canvas& canvas, const Box& area, const Moment& moment) {
                         {.size = std::min(12.0, thick * 0.6),
                          .color = text_on(series_color(static_cast<std::size_t>(d))),
                          .align = Align::Center});
-            for (int to = 0; to < rods && moment.acts(); ++to) {
-                if (!moment["move"].is(d, to)) continue;
+            for (int to = 0; to < rods && snapshot.acts(); ++to) {
+                if (!snapshot["move"].is(d, to)) continue;
                 const double y = floor - disks * thick - 38;
                 arrow(canvas, {x, y}, {body.x + (to + 0.5) * width, y}, colors::vermilion, 3);
                 canvas.outline(disk.inset(-1), colors::vermilion, 3, thick * 0.3);

@@ -15,13 +15,13 @@ struct Street {
     bool leaves_crossing = false, enters_crossing = false;  // else it begins or ends at the edge
 };
 
-std::vector<Street> streets(const Moment& moment) {
-    const Values &enters = moment["LINK-TO"], &leaves = moment["LINK-FROM"];
-    const Values &x = moment["X"], &y = moment["Y"];
+std::vector<Street> streets(const Snapshot& snapshot) {
+    const Values &enters = snapshot["LINK-TO"], &leaves = snapshot["LINK-FROM"];
+    const Values &x = snapshot["X"], &y = snapshot["Y"];
     std::vector<Street> all;
     for (int link = 0; link < enters.count(0); ++link) {
-        Street street{{moment["SOURCE-X"](link), moment["SOURCE-Y"](link)},
-                      {moment["SINK-X"](link), moment["SINK-Y"](link)}};
+        Street street{{snapshot["SOURCE-X"](link), snapshot["SOURCE-Y"](link)},
+                      {snapshot["SINK-X"](link), snapshot["SINK-Y"](link)}};
         for (int i = 0; i < x.count(0); ++i) {
             if (enters.is(link, i)) street.to = {x(i), y(i)}, street.enters_crossing = true;
             if (leaves.is(i, link)) street.from = {x(i), y(i)}, street.leaves_crossing = true;
@@ -74,20 +74,20 @@ void draw_turn(Canvas& canvas, const Lane& from, const Lane& to, double gap, dou
 }
 
 // Whether a turn has green light in the phase that is shown at an intersection.
-bool is_green(const Moment& moment, int intersection, int from, int to) {
-    const Values &green = moment["GREEN"], &signal = moment["signal"];
-    if (moment.has("all-red") && moment["all-red"](intersection) > 0) return false;
+bool is_green(const Snapshot& snapshot, int intersection, int from, int to) {
+    const Values &green = snapshot["GREEN"], &signal = snapshot["signal"];
+    if (snapshot.has("all-red") && snapshot["all-red"](intersection) > 0) return false;
     const double shown = signal(intersection);
     for (int phase = 0; phase < green.count(2); ++phase) {
-        const double number = moment.has("PHASE-INDEX") ? moment["PHASE-INDEX"](phase) : phase;
+        const double number = snapshot.has("PHASE-INDEX") ? snapshot["PHASE-INDEX"](phase) : phase;
         if (number == shown && green.is(from, to, phase)) return true;
     }
     return false;
 }
 
-void draw_flow(Canvas& canvas, const Lane& lane, const Moment& moment, int link, double width) {
+void draw_flow(Canvas& canvas, const Lane& lane, const Snapshot& snapshot, int link, double width) {
     canvas.line(lane.begin, lane.end, rgb(0xd5dae0), width + 2);
-    const Values& flow = moment["flow-on-link"];
+    const Values& flow = snapshot["flow-on-link"];
     // The first time is that nearest to the end of the link.
     const int pieces = flow.count(1);
     const double most = 0.6;  // cars a second that fill a lane
@@ -104,8 +104,8 @@ struct Queue {
     double part = 0;  // of the lane; a car takes four points
 };
 
-Queue queue_of(const Lane& lane, const Moment& moment, int link) {
-    const Values& waiting = moment["q"];
+Queue queue_of(const Lane& lane, const Snapshot& snapshot, int link) {
+    const Values& waiting = snapshot["q"];
     Queue queue;
     for (int to = 0; to < waiting.count(1); ++to) queue.cars += waiting(link, to);
     const double length = std::hypot(lane.end.x - lane.begin.x, lane.end.y - lane.begin.y);
@@ -127,30 +127,30 @@ void tell_queue(Canvas& canvas, const Lane& lane, const Queue& queue, double wid
                 {.size = 10, .color = colors::vermilion, .align = Align::Center, .halo = true});
 }
 
-void draw(Canvas& canvas, const Box& area, const Moment& moment) {
-    const std::vector<Street> all = streets(moment);
+void draw(Canvas& canvas, const Box& area, const Snapshot& snapshot) {
+    const std::vector<Street> all = streets(snapshot);
     Extent across, up;
     for (const Street& street : all)
         for (const Point point : {street.from, street.to}) {
             across.add(point.x), up.add(point.y);
         }
     const Plane plane(area.above(20).inset(24, 16), across.low, up.low, across.high, up.high);
-    const Values &turns = moment["TURN"], &enters = moment["LINK-TO"];
+    const Values &turns = snapshot["TURN"], &enters = snapshot["LINK-TO"];
     const bool many = all.size() > 30;
     const double width = many ? 5 : 14, gap = many ? 14 : 48;
     std::vector<Lane> lanes;
     std::vector<Queue> queues;
     for (const Street& street : all) lanes.push_back(lane_of(plane, street, width * 0.75, gap));
     for (std::size_t link = 0; link < lanes.size(); ++link) {
-        draw_flow(canvas, lanes[link], moment, static_cast<int>(link), width);
-        queues.push_back(queue_of(lanes[link], moment, static_cast<int>(link)));
+        draw_flow(canvas, lanes[link], snapshot, static_cast<int>(link), width);
+        queues.push_back(queue_of(lanes[link], snapshot, static_cast<int>(link)));
         if (queues[link].cars >= 0.05) draw_queue(canvas, lanes[link], queues[link], width);
     }
     for (int from = 0; from < turns.count(0); ++from)
         for (int to = 0; to < turns.count(1); ++to) {
             if (!turns.is(from, to)) continue;
             for (int i = 0; i < enters.count(1); ++i)
-                if (enters.is(from, i) && is_green(moment, i, from, to))
+                if (enters.is(from, i) && is_green(snapshot, i, from, to))
                     draw_turn(canvas, lanes[static_cast<std::size_t>(from)],
                               lanes[static_cast<std::size_t>(to)], gap, many ? 1.2 : 2);
         }

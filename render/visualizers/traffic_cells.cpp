@@ -23,10 +23,10 @@ std::optional<int> crossing_after(const Values& enters, int cell) {
     return {};
 }
 
-std::vector<Road> roads(const Moment& moment) {
-    const Values& flows = moment["FLOWS-INTO-CELL"];
-    const Values& across = moment["FLOWS-INTO-INTERSECTION-EW"];
-    const Values& down = moment["FLOWS-INTO-INTERSECTION-NS"];
+std::vector<Road> roads(const Snapshot& snapshot) {
+    const Values& flows = snapshot["FLOWS-INTO-CELL"];
+    const Values& across = snapshot["FLOWS-INTO-INTERSECTION-EW"];
+    const Values& down = snapshot["FLOWS-INTO-INTERSECTION-NS"];
     const int count = flows.count(0);
     const auto next = [&](int cell) {
         for (int b = 0; b < count; ++b)
@@ -63,9 +63,9 @@ struct Town {
     double width = 1, height = 1;  // cells
 };
 
-Town town_of(const Moment& moment) {
-    Town town{roads(moment), {}};
-    town.crossings.resize(static_cast<std::size_t>(moment["light-signal1"].count(0)), {1, 1});
+Town town_of(const Snapshot& snapshot) {
+    Town town{roads(snapshot), {}};
+    town.crossings.resize(static_cast<std::size_t>(snapshot["light-signal1"].count(0)), {1, 1});
     for (const Road& road : town.roads) {
         // Crossings take the room of a cell.
         for (std::size_t k = 0; k < road.lights.size(); ++k) {
@@ -104,13 +104,13 @@ void draw_light(Canvas& canvas, const Box& box, bool across, bool down, bool adv
     if (advances) canvas.outline(box.inset(-1.5), colors::orange, 2.5, 3);
 }
 
-void draw(Canvas& canvas, const Box& area, const Moment& moment) {
-    const Town town = town_of(moment);
+void draw(Canvas& canvas, const Box& area, const Snapshot& snapshot) {
+    const Town town = town_of(snapshot);
     const Grid grid(area.above(20), static_cast<int>(town.width), static_cast<int>(town.height));
     const auto box_at = [&](double x, double y) {
         return grid.cell(static_cast<int>(x), static_cast<int>(y));
     };
-    const Values& occupied = moment["occupied"];
+    const Values& occupied = snapshot["occupied"];
     double empty_row = 0;
     for (const Road& road : town.roads) {
         // A road without lights has no place of its own.
@@ -129,11 +129,11 @@ void draw(Canvas& canvas, const Box& area, const Moment& moment) {
             }
         }
     }
-    const Values &one = moment["light-signal1"], &two = moment["light-signal2"];
+    const Values &one = snapshot["light-signal1"], &two = snapshot["light-signal2"];
     for (int i = 0; i < one.count(0); ++i) {
         const Point at = town.crossings[static_cast<std::size_t>(i)];
         draw_light(canvas, box_at(at.x, at.y), one.is(i) && !two.is(i), two.is(i) && !one.is(i),
-                   moment.acts() && moment["advance"].is(i));
+                   snapshot.acts() && snapshot["advance"].is(i));
     }
     const Entry entries[] = {{"car", colors::blue},
                              {"green light", colors::green},

@@ -14,14 +14,15 @@ struct View {
     std::string_view title, across, up, goal_across, goal_up;
 };
 
-Plane plane_of(const Box& box, const Moment& moment, const View& view) {
+Plane plane_of(const Box& box, const Snapshot& snapshot, const View& view) {
     Extent across, up;
     for (const auto& [name, extent] :
          {std::pair{view.goal_across, &across}, std::pair{view.goal_up, &up}})
-        for (const double value : moment[name].numbers) extent->add(value);
+        for (const double value : snapshot[name].numbers) extent->add(value);
     for (const auto& [name, extent] : {std::pair{view.across, &across}, std::pair{view.up, &up}})
-        for (const Step& step : moment.steps())
-            for (const double value : moment.values_in(step, *moment.world().find(name)).numbers)
+        for (const Step& step : snapshot.steps())
+            for (const double value :
+                 snapshot.values_in(step, *snapshot.world().find(name)).numbers)
                 extent->add(value);
     across = across.rounded();
     up = up.rounded();
@@ -34,12 +35,12 @@ void draw_aircraft(Canvas& canvas, Point place, double heading, Color color) {
     canvas.polygon(shape, color);
 }
 
-void draw_view(Canvas& canvas, const Box& box, const Moment& moment, const View& view) {
+void draw_view(Canvas& canvas, const Box& box, const Snapshot& snapshot, const View& view) {
     canvas.text({box.x, box.y + 6}, view.title, {.size = 11, .color = colors::muted});
     const Box field = box.below(18).above(room_below).after(room_at_left);
     canvas.fill(field, rgb(0xf6f9fc));
     canvas.outline(field, colors::rule, 0.8);
-    const Plane plane = plane_of(field.inset(10), moment, view);
+    const Plane plane = plane_of(field.inset(10), snapshot, view);
     const auto number_at = [&](Point at) {
         return Point{plane.left + (at.x - plane.box.x) / plane.factor,
                      plane.bottom + (plane.box.bottom() - at.y) / plane.factor};
@@ -49,10 +50,10 @@ void draw_view(Canvas& canvas, const Box& box, const Moment& moment, const View&
     field_ticks(canvas, field, {low.x, high.x, field.x, field.right()},
                 {low.y, high.y, field.bottom(), field.y});
     const Canvas::Saved inside = canvas.clipped(field);
-    const Values& x = moment[view.across];
-    const Values &goal_x = moment[view.goal_across], &goal_y = moment[view.goal_up];
+    const Values& x = snapshot[view.across];
+    const Values &goal_x = snapshot[view.goal_across], &goal_y = snapshot[view.goal_up];
     for (int i = 0; i < x.count(0); ++i) {
-        const bool ours = moment["CONTROLLABLE"].is(i);
+        const bool ours = snapshot["CONTROLLABLE"].is(i);
         const Color color = ours ? series_color(static_cast<std::size_t>(i)) : colors::muted;
         if (ours) {
             const Point goal = plane(goal_x(i), goal_y(i));
@@ -60,9 +61,9 @@ void draw_view(Canvas& canvas, const Box& box, const Moment& moment, const View&
             canvas.disc(goal, 3, color);
         }
         std::vector<Point> way;
-        for (const Step& step : moment.steps())
-            way.push_back(plane(moment.number_in(step, view.across, static_cast<std::size_t>(i)),
-                                moment.number_in(step, view.up, static_cast<std::size_t>(i))));
+        for (const Step& step : snapshot.steps())
+            way.push_back(plane(snapshot.number_in(step, view.across, static_cast<std::size_t>(i)),
+                                snapshot.number_in(step, view.up, static_cast<std::size_t>(i))));
         trail(canvas, way, color);
         const Point now = way.back();
         double heading = 0;
@@ -77,14 +78,14 @@ void draw_view(Canvas& canvas, const Box& box, const Moment& moment, const View&
     }
 }
 
-void draw(Canvas& canvas, const Box& area, const Moment& moment) {
+void draw(Canvas& canvas, const Box& area, const Snapshot& snapshot) {
     const Box body = area.above(20);
-    draw_view(canvas, body.left(body.width * 0.56), moment,
+    draw_view(canvas, body.left(body.width * 0.56), snapshot,
               {"from above (x, y)", "pos-x", "pos-y", "GOAL-X", "GOAL-Y"});
-    draw_view(canvas, body.after(body.width * 0.56 + 14), moment,
+    draw_view(canvas, body.after(body.width * 0.56 + 14), snapshot,
               {"from the side (x, height)", "pos-x", "pos-z", "GOAL-X", "GOAL-Z"});
     std::vector<Entry> entries;
-    const Values& ours = moment["CONTROLLABLE"];
+    const Values& ours = snapshot["CONTROLLABLE"];
     bool others = false;
     for (int i = 0; i < ours.count(0); ++i) {
         if (ours.is(i))

@@ -24,9 +24,9 @@ void draw_flame(Canvas& canvas, const Box& cell) {
     canvas.polygon(core, colors::yellow);
 }
 
-void draw(Canvas& canvas, const Box& area, const Moment& moment) {
-    const Values &burning = moment["burning"], &empty = moment["out-of-fuel"];
-    const Values& target = moment["TARGET"];
+void draw(Canvas& canvas, const Box& area, const Snapshot& snapshot) {
+    const Values &burning = snapshot["burning"], &empty = snapshot["out-of-fuel"];
+    const Values& target = snapshot["TARGET"];
     const int columns = burning.count(0), rows = burning.count(1);
     const Grid grid(area.above(34).after(30), columns, rows);
     const double narrowest = std::min(grid.cell(0, 0).width, grid.cell(0, 0).height);
@@ -43,11 +43,11 @@ void draw(Canvas& canvas, const Box& area, const Moment& moment) {
             canvas.fill(cell, empty.is(x, y) ? rgb(0xb9b4ae) : rgb(0xbfe3d6), 3);
             if (burning.is(x, y)) draw_flame(canvas, cell);
             if (target.is(x, y)) canvas.outline(cell.inset(1.5), colors::blue, 3, 3);
-            if (!moment.acts()) continue;
+            if (!snapshot.acts()) continue;
             const double d = cell.width * 0.36;
             const Point c = cell.center();
-            if (moment["put-out"].is(x, y)) canvas.ring(c, d * 1.2, colors::sky, 3);
-            if (moment["cut-out"].is(x, y)) {
+            if (snapshot["put-out"].is(x, y)) canvas.ring(c, d * 1.2, colors::sky, 3);
+            if (snapshot["cut-out"].is(x, y)) {
                 canvas.line({c.x - d, c.y - d}, {c.x + d, c.y + d}, colors::ink, 3);
                 canvas.line({c.x - d, c.y + d}, {c.x + d, c.y - d}, colors::ink, 3);
             }

@@ -19,7 +19,8 @@ std::int64_t bytes_per_environment(const rddl_simulator& simulator) {
            2 * memory + bytes_of_episode;
 }
 
-void require_room(const rddl_simulator& simulator, std::int64_t environments, std::int64_t limit) {
+void require_memory(const rddl_simulator& simulator, std::int64_t environments,
+                    std::int64_t limit) {
     const double bytes =
         static_cast<double>(bytes_per_environment(simulator)) * static_cast<double>(environments);
     if (bytes <= static_cast<double>(limit)) return;

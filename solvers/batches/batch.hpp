@@ -32,7 +32,7 @@ inline std::int64_t horizon_option(std::int64_t horizon) {
 std::int64_t bytes_per_environment(const rddl_simulator& simulator);
 
 // Fails with a sentence if so many environments take more bytes than they may.
-void require_room(const rddl_simulator& simulator, std::int64_t environments, std::int64_t limit);
+void require_memory(const rddl_simulator& simulator, std::int64_t environments, std::int64_t limit);
 
 // The message of its fault, which begins with "file:line:column", or nothing if the environment has
 // not faulted.

@@ -32,7 +32,7 @@ ProgramActor::ProgramActor(const rddl_simulator& simulator, const ProgramScope& 
     : scope_(scope),
       programs_(programs),
       episodes_(episodes),
-      chooser_(simulator, scope.actions, Noise::White, 0, programs * episodes) {
+      distribution_(simulator, scope.actions, Noise::White, 0, programs * episodes) {
     const auto environments = static_cast<std::size_t>(programs * episodes);
     const auto rows = [&](int row) {
         return environments * static_cast<std::size_t>(row);
@@ -64,7 +64,7 @@ void ProgramActor::act(rddl_batch* batch, std::span<const Program* const> progra
     }
     const Chosen chosen{numbers_.data(), shifts_.data(), spreads_.data(),
                         indices_.data(), masks_.data(),  log_probabilities_.data()};
-    chooser_.choose(
+    distribution_.choose(
         batch, outputs_.data(), scope_.actions.output_count(), {},
         [](std::int64_t) {
             return ChoiceKey{0, 0, 0};

@@ -1,10 +1,10 @@
 // Episodes of several programs, side by side in one batch.
 #pragma once
 
+#include "solvers/action_distribution/action_distribution.hpp"
 #include "solvers/batches/batch.hpp"
 #include "solvers/cgp/program.hpp"
 #include "solvers/cgp/scope.hpp"
-#include "solvers/choosing/choosing.hpp"
 
 #include <cstdint>
 #include <span>
@@ -24,7 +24,7 @@ class ProgramActor {
     ProgramActor(const rddl_simulator& simulator, const ProgramScope& scope, std::int64_t programs,
                  std::int64_t episodes);
 
-    void set_stops(const Stops* stops) { chooser_.set_stops(stops); }
+    void set_stops(const Stops* stops) { distribution_.set_stops(stops); }
 
     // Reads rows of the simulator's observed values, writes rows of action values. Programs whose
     // `running` is 0 are left out, their actions are what they were. steps: that each program's
@@ -41,7 +41,7 @@ class ProgramActor {
     const ProgramScope& scope_;
     std::int64_t programs_, episodes_;
     std::int64_t together_;  // episodes_at_once
-    Chooser chooser_;
+    ActionDistribution distribution_;
     std::vector<float> features_, outputs_, numbers_, shifts_, spreads_, log_probabilities_;
     std::vector<std::int32_t> indices_;
     std::vector<std::uint8_t> masks_;

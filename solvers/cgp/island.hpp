@@ -2,7 +2,7 @@
 #pragma once
 
 #include "solvers/cgp/evaluator.hpp"
-#include "solvers/cgp/room.hpp"
+#include "solvers/cgp/memory_estimate.hpp"
 #include "solvers/cgp/search.hpp"
 #include "support/failure.hpp"
 

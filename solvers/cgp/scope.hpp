@@ -69,7 +69,7 @@ void read_inputs(const ProgramScope& scope, const float* features, const std::ve
                  double* sums, double* inputs, std::ptrdiff_t stride);
 
 // Converts the outputs of a program, output o of unit u at values[(o * units + u) * stride], to a
-// row of a Chooser's inputs: the action space's numbers of reals and logits.
+// row of a ActionDistribution's inputs: the action space's numbers of reals and logits.
 void write_outputs(const ProgramScope& scope, const double* values, std::ptrdiff_t stride,
                    float* row);
 

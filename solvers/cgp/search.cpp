@@ -1,7 +1,7 @@
 #include "solvers/cgp/search.hpp"
 
 #include "solvers/cgp/island.hpp"
-#include "solvers/cgp/room.hpp"
+#include "solvers/cgp/memory_estimate.hpp"
 #include "solvers/cgp/skdecide.hpp"
 #include "solvers/files/checkpoint.hpp"
 #include "support/failure.hpp"
@@ -66,7 +66,7 @@ struct CgpSearch::State {
                                                  options.seed, options.stops)),
           share(rddl::share_of(ranks.number, ranks.count, options.islands, 1)),
           team(std::min(options.threads, static_cast<int>(share.end - share.begin))) {
-        require_room(simulator, scope, options, share.end - share.begin);
+        require_memory(simulator, scope, options, share.end - share.begin);
         for (std::int64_t i = share.begin; i < share.end; ++i)
             islands.push_back(
                 std::make_unique<Island>(simulator, scope, options, static_cast<int>(i)));

@@ -42,7 +42,8 @@ struct CgpOptions {
     std::int64_t migrate_every = 50;  // generations
     int islands = 0;                  // 0: one for each rank
     int threads = 1;
-    std::int64_t memory_limit = default_memory_limit;  // bytes of all that it takes (room.hpp)
+    std::int64_t memory_limit =
+        default_memory_limit;  // bytes of all that it takes (memory_estimate.hpp)
     Lifting lifting = Lifting::Auto;
     bool parsimony = true;  // of programs that are as good, a smaller one is better
     bool time = false;      // programs read how much of the episode is over

@@ -344,7 +344,7 @@ std::int64_t batch_size(const EpisodeOptions& options, const rddl_simulator& sim
         options.batch > 0 ? std::min(options.batch, options.episodes)
         : traced          ? 1
                  : std::min(std::clamp<std::int64_t>(options.episodes / threads, 1, 64), most);
-    require_room(simulator, chosen * threads, options.memory_limit);
+    require_memory(simulator, chosen * threads, options.memory_limit);
     return options.batch > 0 ? options.batch : chosen;
 }
 

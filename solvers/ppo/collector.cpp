@@ -40,11 +40,11 @@ Collector::Collector(const rddl_simulator& simulator, const PpoModel& model,
       count_(share.count),
       origin_(share.origin),
       batch_(create_batch(simulator, batch_options(share.count))),
-      chooser_(simulator, model.actions, options.noise, options.correlation, share.count),
+      distribution_(simulator, model.actions, options.noise, options.correlation, share.count),
       state_noise_(model, share.count),
       memories_(model, share.count),
       seen_(model, static_cast<std::size_t>(share.count)) {
-    chooser_.set_stops(&options.stops);
+    distribution_.set_stops(&options.stops);
     const auto environments = static_cast<std::size_t>(share.count);
     const auto features = static_cast<std::size_t>(model.features());
     const auto columns = static_cast<std::size_t>(model.observations.column_count());
@@ -85,7 +85,7 @@ void Collector::begin_update(std::uint64_t seed, std::int64_t update) {
         write_features(model_.observations,
                        observations_.data() + e * model_.observations.column_count(), 0, true,
                        features_.data() + e * model_.features());
-        chooser_.begin_episode(e);
+        distribution_.begin_episode(e);
         state_noise_.begin_episode(e);
         memories_.begin_episode(e);
         const auto at = static_cast<std::size_t>(e);
@@ -152,7 +152,7 @@ void Collector::act(Experience& experience, std::int64_t t, std::uint64_t seed,
                         at(experience.indices, actions.index_count()),
                         at(experience.masks, actions.mask_size()),
                         at(experience.log_probabilities, 1)};
-    chooser_.choose(
+    distribution_.choose(
         batch_.get(), outputs_.data(), output_row,
         state_noise_.is_used() ? state_noise_.deviations() : Deviations{model_.log_deviations()},
         key_of, chosen, actions_.data());
@@ -221,7 +221,7 @@ void Collector::step(Experience& experience, std::int64_t t) {
         sums_[e] = discounted_sums_[e] = running_returns_[e] = 0;
         discounts_[e] = 1;
         steps_[e] = 0;
-        chooser_.begin_episode(static_cast<std::int64_t>(e));
+        distribution_.begin_episode(static_cast<std::int64_t>(e));
         state_noise_.begin_episode(static_cast<std::int64_t>(e));
         memories_.begin_episode(static_cast<std::int64_t>(e));
         write_features(model_.observations, values, 0, true, features);
@@ -290,8 +290,8 @@ void Collector::archive(Archive& archive) {
         static_cast<std::size_t>(count_) * static_cast<std::size_t>(simulator_.problem->state_size))
         throw Failure("it is of a run with another --envs or --threads");
     archive.fixed(features_);
-    archive.fixed(chooser_.noise());
-    archive.fixed(chooser_.has_noise());
+    archive.fixed(distribution_.noise());
+    archive.fixed(distribution_.has_noise());
     state_noise_.archive(archive);
     memories_.archive(archive);
     seen_.archive(archive);

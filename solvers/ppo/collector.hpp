@@ -44,7 +44,7 @@ class Collector {
     const std::vector<Moments>& feature_moments() const { return feature_moments_; }
     const std::vector<Moments>& return_moments() const { return return_moments_; }
     const std::vector<FinishedEpisode>& finished() const { return finished_; }
-    std::int64_t mended() const { return chooser_.mended(); }
+    std::int64_t repaired() const { return distribution_.repaired(); }
     double simulator_seconds() const { return simulator_seconds_; }
 
     // All that a run needs to continue as if it had not stopped.
@@ -67,7 +67,7 @@ class Collector {
     bool bootstraps_;
     std::int64_t first_, count_, origin_;
     BatchHandle batch_;
-    Chooser chooser_;
+    ActionDistribution distribution_;
     StateNoise state_noise_;
     Memories memories_;
     Seen seen_;

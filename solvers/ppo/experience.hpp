@@ -1,7 +1,7 @@
 // The rollout buffer of an update: all steps of all environments between two updates.
 #pragma once
 
-#include "solvers/choosing/choosing.hpp"
+#include "solvers/action_distribution/action_distribution.hpp"
 #include "solvers/ppo/loss.hpp"
 #include "solvers/ppo/model.hpp"
 #include "solvers/ppo/segments.hpp"

@@ -1,7 +1,7 @@
 // The loss of PPO on some samples, and its gradient by the outputs of the networks.
 #pragma once
 
-#include "solvers/choosing/probabilities.hpp"
+#include "solvers/action_distribution/probabilities.hpp"
 #include "solvers/spaces/actions.hpp"
 
 #include <algorithm>

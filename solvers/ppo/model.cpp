@@ -69,7 +69,7 @@ struct Initialiser {
     }
 };
 
-void make_room(PpoModel& model) {
+void allocate(PpoModel& model) {
     model.parameters.assign(parameter_count(model), 0.0f);
     model.normaliser = Normaliser(model.features());
 }
@@ -92,7 +92,7 @@ std::size_t parameter_count(const PpoModel& model) {
 
 void make_networks(PpoModel& model) {
     lay_out_networks(model);
-    make_room(model);
+    allocate(model);
 }
 
 PpoModel model_without_parameters(const ObservationSpace& observations, const ActionSpace& actions,
@@ -112,7 +112,7 @@ PpoModel model_without_parameters(const ObservationSpace& observations, const Ac
 }
 
 void make_parameters(PpoModel& model, const PpoOptions& options) {
-    make_room(model);
+    allocate(model);
     Initialiser initialise{Normals(options.seed), options.stops};
     initialise(model.policy, 0.01, model.parameters.data());
     initialise(model.value, 1, model.parameters.data() + model.value_begin());

@@ -2,7 +2,7 @@
 // details of S. Huang et al., "The 37 implementation details of PPO", 2022.
 #pragma once
 
-#include "solvers/choosing/choosing.hpp"
+#include "solvers/action_distribution/action_distribution.hpp"
 #include "solvers/network/network.hpp"
 #include "solvers/spaces/observations.hpp"
 #include "support/memory.hpp"
@@ -62,7 +62,8 @@ struct PpoOptions {
     std::optional<bool> bootstraps;
     std::uint64_t seed = 0;
     int threads = 1;
-    std::int64_t memory_limit = default_memory_limit;  // bytes of all that it takes (room.hpp)
+    std::int64_t memory_limit =
+        default_memory_limit;  // bytes of all that it takes (memory_estimate.hpp)
     // All threads call it often: whether an update shall end early. Its results are then not those
     // of a complete run. May be empty.
     std::function<bool()> stops;

@@ -1,7 +1,7 @@
 #include "solvers/ppo/policy.hpp"
 
+#include "solvers/action_distribution/action_distribution.hpp"
 #include "solvers/batches/batch.hpp"
-#include "solvers/choosing/choosing.hpp"
 #include "solvers/files/fingerprint.hpp"
 #include "solvers/ppo/memories.hpp"
 #include "solvers/ppo/state_noise.hpp"
@@ -22,7 +22,7 @@ struct PpoActor {
           random(its_random),
           seed(its_seed),
           records(simulator),
-          chooser(simulator, model->actions, model->noise, model->correlation, environments),
+          distribution(simulator, model->actions, model->noise, model->correlation, environments),
           state_noise(*model, environments),
           memories(*model, environments) {
         if (state_noise.is_used()) state_noise.look_at_policy();
@@ -45,7 +45,7 @@ struct PpoActor {
     }
 
     void act(Decision& decision) {
-        chooser.set_stops(decision.stops);
+        distribution.set_stops(decision.stops);
         const std::int64_t count = static_cast<std::int64_t>(decision.running.size());
         const int width = model->features(), row = model->input_row();
         const int output_row = model->policy.padded_outputs();
@@ -58,7 +58,7 @@ struct PpoActor {
                            steps == 0, features.data() + e * width);
             model->normaliser.write(features.data() + e * width, inputs.data() + e * row);
             if (steps > 0) continue;
-            chooser.begin_episode(e);
+            distribution.begin_episode(e);
             state_noise.begin_episode(e);
             memories.begin_episode(e);
         }
@@ -83,11 +83,11 @@ struct PpoActor {
         }
         const Chosen chosen{numbers.data(), shifts.data(), spreads.data(),
                             indices.data(), masks.data(),  log_probabilities.data()};
-        chooser.choose(decision.batch, outputs.data(), output_row,
-                       !random                 ? Deviations{}
-                       : state_noise.is_used() ? state_noise.deviations()
-                                               : Deviations{model->log_deviations()},
-                       key_of, chosen, actions.data());
+        distribution.choose(decision.batch, outputs.data(), output_row,
+                            !random                 ? Deviations{}
+                            : state_noise.is_used() ? state_noise.deviations()
+                                                    : Deviations{model->log_deviations()},
+                            key_of, chosen, actions.data());
         for (std::int64_t e = 0; e < count; ++e)
             records.write(actions.data() + e * model->actions.column_count,
                           decision.actions + static_cast<std::size_t>(e) * records.record_size());
@@ -98,7 +98,7 @@ struct PpoActor {
     bool random;
     std::uint64_t seed;
     ActionRecords records;
-    Chooser chooser;
+    ActionDistribution distribution;
     StateNoise state_noise;
     Memories memories;
     std::vector<float> observations, features, inputs, outputs, activations, numbers, shifts,

@@ -326,7 +326,7 @@ void read_spaces(const rddl_simulator& simulator, const Json& json, PpoModel& mo
 // A value of JSON takes about that much once it is read, with what vectors keep in reserve.
 constexpr double bytes_per_value = 64;
 
-void require_room_for(std::string_view text, std::int64_t memory_limit) {
+void require_memory_for(std::string_view text, std::int64_t memory_limit) {
     const auto values = std::ranges::count_if(text, [](char c) { return c == ',' || c == '['; });
     const double bytes =
         static_cast<double>(text.size()) + bytes_per_value * static_cast<double>(values);
@@ -407,7 +407,7 @@ std::string ppo_policy_text(const rddl_simulator& simulator, const PpoModel& mod
 
 std::shared_ptr<const PpoModel> read_ppo_policy(const rddl_simulator& simulator,
                                                 std::string_view text, std::int64_t memory_limit) {
-    require_room_for(text, memory_limit);
+    require_memory_for(text, memory_limit);
     try {
         return read(simulator, text);
     } catch (const RefusedJson& refused) {

@@ -7,7 +7,7 @@
 // way of it.
 #pragma once
 
-#include "solvers/choosing/choosing.hpp"
+#include "solvers/action_distribution/action_distribution.hpp"
 #include "solvers/ppo/model.hpp"
 
 #include <cmath>

@@ -30,7 +30,7 @@ Row ppo_row(const PpoProgress& progress, const Work& work) {
             {"rollout/ep_disc_rew_mean", progress.mean_discounted_return},
             {"rollout/ep_len_mean", progress.mean_length},
             {"rollout/success_rate", progress.success_rate},
-            {"rollout/mended_actions", progress.mended_rate},
+            {"rollout/repaired_actions", progress.repaired_rate},
             {"time/fps", work.steps_per_second(progress)},
             {"time/sim_share", progress.simulator_seconds / rollout},
             {"train/approx_kl", progress.kl},

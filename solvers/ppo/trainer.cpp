@@ -5,7 +5,7 @@
 #include "solvers/ppo/advantages.hpp"
 #include "solvers/ppo/collector.hpp"
 #include "solvers/ppo/learner.hpp"
-#include "solvers/ppo/room.hpp"
+#include "solvers/ppo/memory_estimate.hpp"
 #include "support/failure.hpp"
 
 #include <rddl/batch/threads.hpp>
@@ -75,7 +75,7 @@ PpoModel model_that_fits(const rddl_simulator& simulator, PpoOptions& options) {
     PpoModel model = model_without_parameters(observation_space(simulator, options.observations),
                                               action_space(simulator, options.stops), options);
     if (options.shortens_rollout) options.rollout = fitting_rollout(simulator, model, options);
-    require_room(simulator, model, options);
+    require_memory(simulator, model, options);
     make_parameters(model, options);
     return model;
 }
@@ -282,11 +282,11 @@ struct PpoTrainer::State {
     }
 
     void report() {
-        std::int64_t mended_now = 0;
+        std::int64_t repaired_now = 0;
         progress.simulator_seconds = 0;
         progress.episodes = 0;
         for (const auto& collector : collectors) {
-            mended_now += collector->mended();
+            repaired_now += collector->repaired();
             progress.simulator_seconds += collector->simulator_seconds();
         }
         note_episodes();
@@ -306,15 +306,15 @@ struct PpoTrainer::State {
         moments.assign(3, {});
         Moments &returns = moments[0], &errors = moments[1], &mending = moments[2];
         mending.count = static_cast<double>(experience.count());
-        mending.sum = static_cast<double>(mended_now - mended);
-        mended = mended_now;
+        mending.sum = static_cast<double>(repaired_now - repaired);
+        repaired = repaired_now;
         for (std::size_t s = 0; s < experience.count(); ++s) {
             returns.add(static_cast<double>(experience.returns[s]));
             errors.add(static_cast<double>(experience.returns[s]) -
                        static_cast<double>(experience.values[s]));
         }
         add_up(moments);
-        progress.mended_rate = mending.sum / mending.count;
+        progress.repaired_rate = mending.sum / mending.count;
         const auto variance = [](const Moments& m) {
             return m.squares / m.count - m.sum / m.count * (m.sum / m.count);
         };
@@ -422,7 +422,7 @@ struct PpoTrainer::State {
     std::vector<FinishedEpisode> episodes;  // the last ones
     std::vector<Moments> moments;           // room for what is summed up
     double gamma, learning_rate, kl_penalty, entropy_weight = 0;
-    std::int64_t mended = 0;
+    std::int64_t repaired = 0;
     PpoProgress progress;
 };
 

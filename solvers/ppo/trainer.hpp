@@ -26,7 +26,7 @@ struct PpoProgress {
     double success_rate = 0;  // those that a termination ended
     double policy_loss = 0, value_loss = 0, entropy = 0, kl = 0, clip_fraction = 0;
     double explained_variance = 0, deviation = 0, learning_rate = 0;
-    double mended_rate = 0;  // actions that violated a precondition
+    double repaired_rate = 0;  // actions that violated a precondition
     double collect_seconds = 0, learn_seconds = 0, simulator_seconds = 0;
     int epochs = 0;  // that were made
 };

@@ -4,7 +4,7 @@
 #include "formats/trace.hpp"
 #include "learning/learned_policy.hpp"
 #include "learning/learning_curves.hpp"
-#include "pictures/reel.hpp"
+#include "pictures/trace_renderer.hpp"
 #include "rollouts/replay_session.hpp"
 #include "scenes/scene.hpp"
 #include "solvers/cgp/formula.hpp"
@@ -21,7 +21,7 @@
 #include "support/files.hpp"
 #include "verify/verified_states.hpp"
 
-#include <render/film.hpp>
+#include <render/episode_renderer.hpp>
 #include <render/visualizer.hpp>
 
 #include <algorithm>
@@ -202,14 +202,14 @@ struct FileReaders::State {
         output.begin = [](const workbench::Show&) {
         };
         output.add = [](const workbench::Drawn& drawn) {
-            if (drawn.in_movie) drawn.film.svg();
+            if (drawn.in_movie) drawn.renderer.svg();
             return drawn.in_movie;
         };
         output.finish = [] {
         };
-        workbench::Reel reel(world, visualizer, options, {output}, {}, "trace");
-        each_line(trace, [&](std::string_view line) { reel.add_line(line); });
-        reel.finish();
+        workbench::TraceRenderer renderer(world, visualizer, options, {output}, {}, "trace");
+        each_line(trace, [&](std::string_view line) { renderer.add_line(line); });
+        renderer.finish();
     }
 
     // Reads it as `rddl replay`, `rddl run --policy TRACE`, `rddl verify --states` and `rddl

@@ -14,22 +14,22 @@ namespace {
 
 class AnalysisTest : public testing::Test {
   protected:
-    const Facts& facts(NodeId id) { return w.builder().facts(id); }
+    const Properties& properties(NodeId id) { return w.builder().properties(id); }
     Workbench w;
 };
 
 TEST_F(AnalysisTest, UniformIsWhatNoStateHasAPartIn) {
-    EXPECT_TRUE(facts(w.at(w.connected, w.c)).uniform);
-    EXPECT_TRUE(facts(w.builder().index(w.c)).uniform);
-    EXPECT_FALSE(facts(w.at(w.running, w.c)).uniform);
-    EXPECT_FALSE(facts(w.builder().load(w.connected, {w.load(w.count)})).uniform);
-    EXPECT_FALSE(facts(w.bernoulli(w.real(0.5))).uniform);
+    EXPECT_TRUE(properties(w.at(w.connected, w.c)).uniform);
+    EXPECT_TRUE(properties(w.builder().index(w.c)).uniform);
+    EXPECT_FALSE(properties(w.at(w.running, w.c)).uniform);
+    EXPECT_FALSE(properties(w.builder().load(w.connected, {w.load(w.count)})).uniform);
+    EXPECT_FALSE(properties(w.bernoulli(w.real(0.5))).uniform);
 }
 
 TEST_F(AnalysisTest, KnowsWhatIsNeverNegativeZero) {
     const NodeId x = w.load(w.level), one = w.real(1), zero = w.real(0);
     const auto never = [&](NodeId id) {
-        return facts(id).never_negative_zero;
+        return properties(id).never_negative_zero;
     };
     EXPECT_FALSE(never(x));
     EXPECT_FALSE(never(w.real(-0.0)));
@@ -87,7 +87,7 @@ TEST_F(AnalysisTest, NoOperatorMakesNegativeZerosThatAreNotExpected) {
                 const double value = evaluator.value<double>(whole, frame);
                 const double sum = evaluator.value<double>(begun, frame);
                 const bool is_negative_zero = value == 0 && std::signbit(value);
-                EXPECT_FALSE(is_negative_zero && facts(whole).never_negative_zero)
+                EXPECT_FALSE(is_negative_zero && properties(whole).never_negative_zero)
                     << print(w.program, whole) << " of " << level << ", " << n;
                 const double expected = 0.0 + value;
                 EXPECT_TRUE(identical(sum, expected) || (std::isnan(sum) && std::isnan(expected)))
@@ -101,66 +101,67 @@ TEST_F(AnalysisTest, NoOperatorMakesNegativeZerosThatAreNotExpected) {
 
 TEST_F(AnalysisTest, VariablesAreFreeUntilBound) {
     const NodeId body = w.at(w.running, w.c);
-    EXPECT_EQ(facts(body).free_variables, std::vector{w.c});
-    EXPECT_TRUE(facts(w.builder().reduce(Reduction::ForAll, w.c, body)).free_variables.empty());
+    EXPECT_EQ(properties(body).free_variables, std::vector{w.c});
+    EXPECT_TRUE(
+        properties(w.builder().reduce(Reduction::ForAll, w.c, body)).free_variables.empty());
     const NodeId both = w.apply(Operator::And, w.at(w.running, w.d), body);
-    EXPECT_EQ(facts(both).free_variables, (std::vector{w.c, w.d}));
+    EXPECT_EQ(properties(both).free_variables, (std::vector{w.c, w.d}));
 }
 
 TEST_F(AnalysisTest, DrawsFaultUnlessTheirParametersAreKnown) {
-    EXPECT_FALSE(facts(w.bernoulli(w.real(0.5))).may_fault);
-    EXPECT_TRUE(facts(w.bernoulli(w.real(0.5))).random);
-    EXPECT_TRUE(facts(w.bernoulli(w.real(1.5))).may_fault);
-    EXPECT_TRUE(facts(w.bernoulli(w.load(w.level))).may_fault);
+    EXPECT_FALSE(properties(w.bernoulli(w.real(0.5))).may_fault);
+    EXPECT_TRUE(properties(w.bernoulli(w.real(0.5))).random);
+    EXPECT_TRUE(properties(w.bernoulli(w.real(1.5))).may_fault);
+    EXPECT_TRUE(properties(w.bernoulli(w.load(w.level))).may_fault);
     const NodeId table = w.builder().convert(w.at(w.connected, w.c), Scalar::Real);
     const NodeId half = w.apply(Operator::Multiply, table, w.real(0.5));
-    EXPECT_FALSE(facts(w.bernoulli(half)).may_fault);
+    EXPECT_FALSE(properties(w.bernoulli(half)).may_fault);
 }
 
 TEST_F(AnalysisTest, PowersFaultUnlessTheExponentIsKnown) {
-    EXPECT_TRUE(facts(w.int_power(w.load(w.count), w.load(w.count))).may_fault);
-    EXPECT_FALSE(facts(w.int_power(w.load(w.count), w.integer(2))).may_fault);
-    EXPECT_TRUE(facts(w.int_power(w.load(w.count), w.integer(-2))).may_fault);
+    EXPECT_TRUE(properties(w.int_power(w.load(w.count), w.load(w.count))).may_fault);
+    EXPECT_FALSE(properties(w.int_power(w.load(w.count), w.integer(2))).may_fault);
+    EXPECT_TRUE(properties(w.int_power(w.load(w.count), w.integer(-2))).may_fault);
 }
 
 TEST_F(AnalysisTest, CountsOfBitsHaveARange) {
     const NodeId bits = w.builder().bits(w.running, 0);
-    EXPECT_EQ(facts(w.apply(Operator::CountOnes, bits)).range->upper, 3);
+    EXPECT_EQ(properties(w.apply(Operator::CountOnes, bits)).range->upper, 3);
     const NodeId two = w.apply(Operator::BitAnd, bits, w.integer(5));
-    EXPECT_EQ(facts(w.apply(Operator::CountOnes, two)).range->upper, 2);
-    EXPECT_EQ(facts(w.apply(Operator::CountOnes, w.load(w.count))).range->upper, 64);
+    EXPECT_EQ(properties(w.apply(Operator::CountOnes, two)).range->upper, 2);
+    EXPECT_EQ(properties(w.apply(Operator::CountOnes, w.load(w.count))).range->upper, 64);
 }
 
 TEST_F(AnalysisTest, NumbersAreFiniteWhereTheirRangeShowsIt) {
     w.program.buffers[w.level.index].range = Range{-10, 10};
     const NodeId level = w.load(w.level);
     const NodeId square = w.apply(Operator::Multiply, level, level);
-    EXPECT_EQ(facts(square).range, (Range{0, 100}));
-    EXPECT_TRUE(facts(w.apply(Operator::Sqrt, square)).finite);
-    EXPECT_TRUE(facts(w.apply(Operator::Power, square, w.real(0.5))).finite);
-    EXPECT_FALSE(facts(w.apply(Operator::Power, square, w.real(-0.5))).finite);
-    EXPECT_FALSE(facts(w.apply(Operator::Sqrt, level)).finite);
+    EXPECT_EQ(properties(square).range, (Range{0, 100}));
+    EXPECT_TRUE(properties(w.apply(Operator::Sqrt, square)).finite);
+    EXPECT_TRUE(properties(w.apply(Operator::Power, square, w.real(0.5))).finite);
+    EXPECT_FALSE(properties(w.apply(Operator::Power, square, w.real(-0.5))).finite);
+    EXPECT_FALSE(properties(w.apply(Operator::Sqrt, level)).finite);
 }
 
 TEST_F(AnalysisTest, NumbersFromOutsideMayBeAnything) {
     const NodeId level = w.load(w.level);
-    EXPECT_FALSE(facts(level).finite);
-    EXPECT_FALSE(facts(w.apply(Operator::Multiply, level, level)).finite);
-    EXPECT_TRUE(facts(w.builder().convert(w.load(w.count), Scalar::Real)).finite);
+    EXPECT_FALSE(properties(level).finite);
+    EXPECT_FALSE(properties(w.apply(Operator::Multiply, level, level)).finite);
+    EXPECT_TRUE(properties(w.builder().convert(w.load(w.count), Scalar::Real)).finite);
 }
 
 TEST_F(AnalysisTest, CheapIsAHandfulOfOperations) {
     const NodeId sum = w.apply(Operator::Add, w.load(w.level), w.real(2));
-    EXPECT_TRUE(is_cheap(facts(sum)));
-    EXPECT_FALSE(is_cheap(facts(w.apply(Operator::Exp, sum))));
-    EXPECT_FALSE(is_cheap(facts(w.bernoulli(w.real(0.5)))));
-    EXPECT_FALSE(is_cheap(facts(w.int_power(w.load(w.count), w.load(w.count)))));
+    EXPECT_TRUE(is_cheap(properties(sum)));
+    EXPECT_FALSE(is_cheap(properties(w.apply(Operator::Exp, sum))));
+    EXPECT_FALSE(is_cheap(properties(w.bernoulli(w.real(0.5)))));
+    EXPECT_FALSE(is_cheap(properties(w.int_power(w.load(w.count), w.load(w.count)))));
 }
 
 TEST_F(AnalysisTest, CostsMultiplyInLoops) {
     const NodeId body = w.builder().convert(w.at(w.running, w.c), Scalar::Int);
     const NodeId sum = w.builder().reduce(Reduction::Sum, w.c, body);
-    EXPECT_GE(facts(sum).cost, 3 * facts(body).cost);
+    EXPECT_GE(properties(sum).cost, 3 * properties(body).cost);
 }
 
 TEST_F(AnalysisTest, RowsOfATableHaveAverageLength) {
@@ -175,9 +176,9 @@ TEST_F(AnalysisTest, RowsOfATableHaveAverageLength) {
                      b.load(rows, {w.apply(Operator::Add, b.index(w.c), w.integer(1))})};
     const NodeId body = w.apply(Operator::Multiply, b.index(entry), w.load(w.count));
     const NodeId sum = b.reduce(Reduction::Sum, entry, body, row);
-    EXPECT_EQ(facts(sum).free_variables, std::vector{w.c});
-    EXPECT_LT(facts(sum).cost, 20 * facts(body).cost);
-    EXPECT_GE(facts(sum).cost, 10 * facts(body).cost);
+    EXPECT_EQ(properties(sum).free_variables, std::vector{w.c});
+    EXPECT_LT(properties(sum).cost, 20 * properties(body).cost);
+    EXPECT_GE(properties(sum).cost, 10 * properties(body).cost);
 }
 
 TEST_F(AnalysisTest, OnlyWhatIsEvaluatedIsReachable) {

@@ -1,4 +1,4 @@
-// What all planners have in common: names, options, budgets, luck of their own.
+// What all planners have in common: names, options, budgets, stream of their own.
 #include "planning.hpp"
 
 #include <gtest/gtest.h>
@@ -68,15 +68,15 @@ TEST(PlannerNames, TablesAreComplete) {
     }
 }
 
-TEST(PlannerLuck, IsNotThatOfTheEnvironment) {
+TEST(PlannerStreams, IsNotThatOfTheEnvironment) {
     // Who knew the draws would be right 40 times of 40. 1200 guesses at random deviate by 0.014.
     for (const char* const planner :
          {"plan:cem,steps=2000,horizon=2", "plan:rollout,policy=noop,steps=2000",
           "plan:uct,steps=2000"}) {
         SCOPED_TRACE(planner);
         for (const std::uint64_t seed : {0, 7}) {
-            const Played course = run(coin(), planner, 30, 1, seed);
-            EXPECT_NEAR(course.mean() / 40, 0.5, 0.06);
+            const Played plan = run(coin(), planner, 30, 1, seed);
+            EXPECT_NEAR(plan.mean() / 40, 0.5, 0.06);
         }
     }
 }
@@ -100,14 +100,14 @@ TEST(PlannerBudgets, SameStepsGiveTheSameActionsOnAnyNumberOfThreads) {
             const Played one = run(*simulator, planner, 4, 1);
             const Played two = run(*simulator, planner, 4, 2);
             EXPECT_EQ(one.returns(), two.returns());
-            ASSERT_EQ(one.thoughts.size(), two.thoughts.size());
-            for (const auto& [place, thoughts] : one.thoughts) {
-                const Thoughts& others = two.thoughts.at(place);
-                ASSERT_EQ(thoughts.candidates.size(), others.candidates.size());
-                EXPECT_EQ(thoughts.steps, others.steps);
-                for (std::size_t c = 0; c < thoughts.candidates.size(); ++c) {
-                    EXPECT_EQ(thoughts.candidates[c].action, others.candidates[c].action);
-                    EXPECT_EQ(thoughts.candidates[c].value, others.candidates[c].value);
+            ASSERT_EQ(one.explanation.size(), two.explanation.size());
+            for (const auto& [place, explanation] : one.explanation) {
+                const Explanation& others = two.explanation.at(place);
+                ASSERT_EQ(explanation.candidates.size(), others.candidates.size());
+                EXPECT_EQ(explanation.steps, others.steps);
+                for (std::size_t c = 0; c < explanation.candidates.size(); ++c) {
+                    EXPECT_EQ(explanation.candidates[c].action, others.candidates[c].action);
+                    EXPECT_EQ(explanation.candidates[c].value, others.candidates[c].value);
                 }
             }
         }
@@ -121,13 +121,13 @@ TEST(PlannerBudgets, AreNeverTooShort) {
                  {"steps=1", "steps=7", "steps=100", "seconds=0", "iterations=1,steps=50"}) {
                 SCOPED_TRACE(simulator->problem->domain + (" " + name) + " " + budget);
                 if (is_uct(name) && !is_finite(*simulator)) continue;
-                const Played course = run(*simulator, name + "," + budget);
-                EXPECT_EQ(course.summary.illegal_actions, 0);
-                EXPECT_EQ(course.summary.episodes, 1);
+                const Played plan = run(*simulator, name + "," + budget);
+                EXPECT_EQ(plan.summary.illegal_actions, 0);
+                EXPECT_EQ(plan.summary.episodes, 1);
                 if (!budget.starts_with("steps=")) continue;
                 const std::int64_t most = std::max<std::int64_t>(std::stoll(budget.substr(6)), 2);
-                for (const auto& [place, thoughts] : course.thoughts)
-                    EXPECT_LE(thoughts.steps, most);
+                for (const auto& [place, explanation] : plan.explanation)
+                    EXPECT_LE(explanation.steps, most);
             }
 }
 

@@ -58,11 +58,12 @@ inline PolicySettings settings_of(const rddl_simulator& simulator) {
 struct Played {
     std::vector<solvers::Episode> episodes;
     solvers::Summary summary;
-    std::map<std::pair<std::int64_t, std::int64_t>, Thoughts> thoughts;  // by episode and step
+    std::map<std::pair<std::int64_t, std::int64_t>, Explanation>
+        explanation;  // by episode and step
 
     double mean() const { return summary.undiscounted_return.mean; }
-    const Thoughts& thought(std::int64_t episode, std::int64_t step) const {
-        return thoughts.at({episode, step});
+    const Explanation& thought(std::int64_t episode, std::int64_t step) const {
+        return explanation.at({episode, step});
     }
     std::vector<double> returns() const {
         std::vector<double> all;
@@ -73,13 +74,13 @@ struct Played {
 
 inline Played run(const rddl_simulator& simulator, const std::string& planner,
                   std::int64_t episodes = 1, int threads = 1, std::uint64_t seed = 0) {
-    Played course;
+    Played plan;
     std::mutex mutex;
     PolicySettings settings = settings_of(simulator);
     settings.seed = seed;
-    settings.explain = [&](const Thoughts& thoughts) {
+    settings.explain = [&](const Explanation& explanation) {
         const std::scoped_lock lock(mutex);
-        course.thoughts.insert_or_assign({thoughts.episode, thoughts.step}, thoughts);
+        plan.explanation.insert_or_assign({explanation.episode, explanation.step}, explanation);
     };
     solvers::EpisodeOptions options;
     options.episodes = episodes;
@@ -88,13 +89,13 @@ inline Played run(const rddl_simulator& simulator, const std::string& planner,
     options.preconditions = solvers::Preconditions::Warn;  // so that they are counted
     const solvers::Policy policy = planner_policy(simulator, planner, settings);
     solvers::Rollouts rollouts = solvers::run_episodes(simulator, policy, options, {});
-    course.summary = solvers::summary_of(rollouts);
-    course.episodes = std::move(rollouts.episodes);
-    return course;
+    plan.summary = solvers::summary_of(rollouts);
+    plan.episodes = std::move(rollouts.episodes);
+    return plan;
 }
 
-inline const std::byte* chosen_action(const Thoughts& thoughts) {
-    return thoughts.candidates.at(thoughts.chosen).action.data();
+inline const std::byte* chosen_action(const Explanation& explanation) {
+    return explanation.candidates.at(explanation.chosen).action.data();
 }
 
 }  // namespace rddlc::planners

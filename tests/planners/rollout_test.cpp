@@ -9,15 +9,15 @@ namespace {
 
 // Of no-op, which stays: to stay is worth 1 + 1 + 1 + 1, to climb (2 + 2 + 2)/2, to leap 8/4.
 TEST(Rollouts, ValueActionsByThePolicyThatPlaysOn) {
-    const Played course = run(ladder(), "plan:rollout,policy=noop,iterations=200");
-    const Thoughts& thoughts = course.thought(0, 0);
-    ASSERT_EQ(thoughts.candidates.size(), 3u);
-    EXPECT_EQ(thoughts.candidates[0].name, "policy");
-    EXPECT_DOUBLE_EQ(thoughts.candidates[0].value, 4);
-    EXPECT_NEAR(thoughts.candidates[1].value, 3, 0.25);
-    EXPECT_NEAR(thoughts.candidates[2].value, 2, 0.25);
-    EXPECT_EQ(thoughts.chosen, 0u);
-    EXPECT_EQ(thoughts.depth, 4);
+    const Played plan = run(ladder(), "plan:rollout,policy=noop,iterations=200");
+    const Explanation& explanation = plan.thought(0, 0);
+    ASSERT_EQ(explanation.candidates.size(), 3u);
+    EXPECT_EQ(explanation.candidates[0].name, "policy");
+    EXPECT_DOUBLE_EQ(explanation.candidates[0].value, 4);
+    EXPECT_NEAR(explanation.candidates[1].value, 3, 0.25);
+    EXPECT_NEAR(explanation.candidates[2].value, 2, 0.25);
+    EXPECT_EQ(explanation.chosen, 0u);
+    EXPECT_EQ(explanation.depth, 4);
 }
 
 // No-op has a reward of 1 in each of 4 steps; a step of improvement is better by what the last
@@ -30,8 +30,8 @@ TEST(Rollouts, ImproveAPolicy) {
 
 // A policy that is the best there is is left alone, since nothing is surely better.
 TEST(Rollouts, KeepThePolicyInDoubt) {
-    const Played course = run(coin(), "plan:rollout,policy=noop,steps=2000,confidence=100", 3);
-    for (const auto& [place, thoughts] : course.thoughts) EXPECT_EQ(thoughts.chosen, 0u);
+    const Played plan = run(coin(), "plan:rollout,policy=noop,steps=2000,confidence=100", 3);
+    for (const auto& [place, explanation] : plan.explanation) EXPECT_EQ(explanation.chosen, 0u);
 }
 
 }  // namespace

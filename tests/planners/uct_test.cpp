@@ -10,27 +10,27 @@ namespace {
 TEST(Uct, FindsTheValuesOfASmallProblem) {
     for (const std::string initial : {"lookahead", "rollout"}) {
         SCOPED_TRACE(initial);
-        const Played course =
+        const Played plan =
             run(ladder(), "plan:uct,iterations=40000,exploration=1,initial=" + initial);
-        const Thoughts& thoughts = course.thought(0, 0);
-        ASSERT_EQ(thoughts.candidates.size(), 3u);
-        EXPECT_NEAR(thoughts.candidates[0].value, 4.5, 0.12);
-        EXPECT_NEAR(thoughts.candidates[1].value, 4.75, 0.12);
-        EXPECT_NEAR(thoughts.candidates[2].value, 4.625, 0.12);
-        EXPECT_EQ(thoughts.chosen, 1u);
-        EXPECT_EQ(thoughts.depth, 4);
-        EXPECT_GE(thoughts.iterations, 40000);
+        const Explanation& explanation = plan.thought(0, 0);
+        ASSERT_EQ(explanation.candidates.size(), 3u);
+        EXPECT_NEAR(explanation.candidates[0].value, 4.5, 0.12);
+        EXPECT_NEAR(explanation.candidates[1].value, 4.75, 0.12);
+        EXPECT_NEAR(explanation.candidates[2].value, 4.625, 0.12);
+        EXPECT_EQ(explanation.chosen, 1u);
+        EXPECT_EQ(explanation.depth, 4);
+        EXPECT_GE(explanation.iterations, 40000);
     }
 }
 
 // The values of backups by means are those of what was tried, not of the best: lower.
 TEST(Uct, BacksUpMeansIfTold) {
-    const Played course = run(ladder(), "plan:uct,iterations=40000,backup=mean");
+    const Played plan = run(ladder(), "plan:uct,iterations=40000,backup=mean");
     const Played other = run(ladder(), "plan:uct,iterations=40000");
-    const Thoughts& best = other.thought(0, 0);
+    const Explanation& best = other.thought(0, 0);
     double mean = 0, most = 0;
     for (std::size_t c = 0; c < 3; ++c) {
-        mean = std::max(mean, course.thought(0, 0).candidates[c].value);
+        mean = std::max(mean, plan.thought(0, 0).candidates[c].value);
         most = std::max(most, best.candidates[c].value);
     }
     EXPECT_LT(mean, most);
@@ -39,20 +39,20 @@ TEST(Uct, BacksUpMeansIfTold) {
 
 // Optimal play from rung 1 has a mean return of 4.75; a mean of 400 episodes has an error of 0.18.
 TEST(Uct, PlaysOptimally) {
-    const Played course = run(ladder(), "plan:uct,iterations=3000", 400);
-    EXPECT_NEAR(course.mean(), 4.75, 0.55);
-    EXPECT_EQ(course.summary.illegal_actions, 0);
+    const Played plan = run(ladder(), "plan:uct,iterations=3000", 400);
+    EXPECT_NEAR(plan.mean(), 4.75, 0.55);
+    EXPECT_EQ(plan.summary.illegal_actions, 0);
 }
 
 // Once the game is over, nothing changes any more, and there is no search.
 TEST(Uct, SeesWhereNothingChanges) {
-    const Played course = run(ladder(), "plan:uct,iterations=500", 40);
+    const Played plan = run(ladder(), "plan:uct,iterations=500", 40);
     int over = 0;
-    for (const auto& [place, thoughts] : course.thoughts) {
-        if (thoughts.note.empty()) continue;
+    for (const auto& [place, explanation] : plan.explanation) {
+        if (explanation.note.empty()) continue;
         ++over;
-        EXPECT_EQ(thoughts.iterations, 0);
-        for (const Thoughts::Candidate& candidate : thoughts.candidates)
+        EXPECT_EQ(explanation.iterations, 0);
+        for (const Explanation::Candidate& candidate : explanation.candidates)
             EXPECT_EQ(candidate.value, 0);
     }
     EXPECT_GT(over, 0);

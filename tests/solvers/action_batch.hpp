@@ -2,7 +2,7 @@
 #pragma once
 
 #include "solvers/batches/batch.hpp"
-#include "solvers/spaces/mending.hpp"
+#include "solvers/spaces/action_repair.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -21,7 +21,7 @@ struct ActionBatch {
           columns(static_cast<std::size_t>(space.column_count)),
           values(environments * columns),
           bytes(environments * records.record_size()),
-          room(simulator, space, environments) {}
+          buffers(simulator, space, environments) {}
 
     float* row(std::size_t e) { return values.data() + e * columns; }
     std::byte* record(std::size_t e) { return bytes.data() + e * records.record_size(); }
@@ -35,8 +35,8 @@ struct ActionBatch {
         return all;
     }
     std::int64_t mend() {
-        return mend_actions(simulator, space, records, batch.get(), values.data(), bytes.data(),
-                            room);
+        return repair_actions(simulator, space, records, batch.get(), values.data(), bytes.data(),
+                              buffers);
     }
 
     const rddl_simulator& simulator;
@@ -46,7 +46,7 @@ struct ActionBatch {
     std::size_t columns;
     std::vector<float> values;  // rows of columns
     std::vector<std::byte> bytes;
-    MendingRoom room;
+    RepairBuffers buffers;
 
   private:
     static rddl_batch_options options() {

@@ -2,9 +2,9 @@
 #include "../counted_allocations.hpp"
 #include "simulators.hpp"
 #include "solvers/cgp/evaluator.hpp"
-#include "solvers/cgp/room.hpp"
+#include "solvers/cgp/memory_estimate.hpp"
+#include "solvers/ppo/memory_estimate.hpp"
 #include "solvers/ppo/policy_file.hpp"
-#include "solvers/ppo/room.hpp"
 #include "solvers/ppo/trainer.hpp"
 
 #include <fmt/format.h>
@@ -67,13 +67,13 @@ TEST(Allocations, OfPpoAreKnownBefore) {
             const PpoModel model =
                 model_without_parameters(observation_space(*simulator, options.observations),
                                          action_space(*simulator), options);
-            const PpoRoom room = room_of(*simulator, model, options);
+            const PpoMemory memory = memory_of(*simulator, model, options);
             const std::int64_t before = live_bytes;
             const PpoTrainer trainer(*simulator, options);
             const auto taken = static_cast<double>(live_bytes - before) +
                                4 * static_cast<double>(parameter_count(model));  // evaluations
-            EXPECT_LT(taken, 1.1 * (room.all() - room.files) + 100'000);
-            EXPECT_GT(taken, 0.9 * (room.all() - room.files) - 100'000);
+            EXPECT_LT(taken, 1.1 * (memory.all() - memory.files) + 100'000);
+            EXPECT_GT(taken, 0.9 * (memory.all() - memory.files) - 100'000);
         }
 }
 
@@ -99,7 +99,7 @@ TEST(Allocations, OfCgpAreKnownBefore) {
             CgpSearch search(*simulator, options);
             search.run(1);
             const double all_of_it =
-                room_of(*simulator, search.scope(), options, options.islands).all();
+                memory_of(*simulator, search.scope(), options, options.islands).all();
             const auto taken = static_cast<double>(live_bytes - before);
             EXPECT_LT(taken, 1.1 * all_of_it + 200'000);
             EXPECT_GT(taken, 0.25 * all_of_it - 200'000);

@@ -4,10 +4,10 @@
 #include "solver_harbour.h"
 #include "solver_museum.h"
 #include "solver_shop.h"
+#include "solvers/action_distribution/action_distribution.hpp"
 #include "solvers/batches/batch.hpp"
 #include "solvers/cgp/scope.hpp"
 #include "solvers/cgp/skdecide.hpp"
-#include "solvers/choosing/choosing.hpp"
 #include "solvers/spaces/actions.hpp"
 #include "support/failure.hpp"
 
@@ -109,7 +109,7 @@ TEST(Groups, BesideALimitAndNumbers) {
 
 // No default is legal where each ship has to do something: numbers alone fall back, and not all the
 // way where half of them is legal.
-TEST(Groups, KeepWhatWasChosenWhereNumbersAreMended) {
+TEST(Groups, KeepWhatWasChosenWhereNumbersAreRepaired) {
     ActionBatch all(harbour());
     std::mt19937 random(3);
     for (std::size_t e = 0; e < all.environments; ++e) {
@@ -137,7 +137,7 @@ TEST(Groups, KeepWhatWasChosenWhereNumbersAreMended) {
 }
 
 // Whatever is wanted: a random legal action is what values fall back to.
-TEST(Groups, AnyActionIsMendedWhereTheDefaultIsIllegal) {
+TEST(Groups, AnyActionIsRepairedWhereTheDefaultIsIllegal) {
     ActionBatch all(museum());
     std::mt19937 random(5);
     for (float& value : all.values) value = static_cast<float>(random() % 2);
@@ -171,7 +171,7 @@ TEST(Groups, MakeLegalActions) {
         options.environment_count = environments;
         options.autoreset = RDDL_AUTORESET_SAME_STEP;
         const BatchHandle batch = create_batch(*simulator, options);
-        Chooser chooser(*simulator, space, Noise::White, 0, environments);
+        ActionDistribution distribution(*simulator, space, Noise::White, 0, environments);
         const auto logits = static_cast<std::size_t>(space.logit_count);
         const auto columns = static_cast<std::size_t>(space.column_count);
         std::vector<float> outputs(environments * logits), actions(environments * columns),
@@ -183,7 +183,7 @@ TEST(Groups, MakeLegalActions) {
         std::set<std::int32_t> chosen;
         const float no_deviation = 0;
         for (std::int64_t t = 0; t < steps; ++t) {
-            chooser.choose(
+            distribution.choose(
                 batch.get(), outputs.data(), space.logit_count, Deviations{&no_deviation},
                 [&](std::int64_t e) {
                     return ChoiceKey{5, static_cast<std::uint64_t>(e),
@@ -199,7 +199,7 @@ TEST(Groups, MakeLegalActions) {
             rddl_transition unread{};
             ASSERT_EQ(simulator->step(batch.get(), bytes.data(), &unread), RDDL_OK);
         }
-        EXPECT_EQ(chooser.mended(), 0) << simulator->problem->instance;
+        EXPECT_EQ(distribution.repaired(), 0) << simulator->problem->instance;
         EXPECT_GE(chosen.size(), 4u);  // all of a group
     }
 }

@@ -26,30 +26,30 @@ Explanations::Explanations(PlannerSettings& settings, const rddl_problem& proble
     : problem_(problem), actions_(problem, RDDL_ACTION) {
     if (settings.explanations.empty()) return;
     file_.emplace(settings.explanations, used);
-    settings.explain = [this](const planners::Thoughts& thoughts) {
-        take(thoughts);
+    settings.explain = [this](const planners::Explanation& explanation) {
+        take(explanation);
     };
 }
 
-void Explanations::take(const planners::Thoughts& thoughts) {
-    std::string line = line_of(thoughts);
+void Explanations::take(const planners::Explanation& explanation) {
+    std::string line = line_of(explanation);
     const std::scoped_lock lock(mutex_);
-    lines_.insert_or_assign({thoughts.episode, thoughts.step}, std::move(line));
+    lines_.insert_or_assign({explanation.episode, explanation.step}, std::move(line));
 }
 
-std::string Explanations::line_of(const planners::Thoughts& thoughts) const {
+std::string Explanations::line_of(const planners::Explanation& explanation) const {
     const auto number = [](double value) {
         return json_line(nlohmann::ordered_json(json_number(value)));
     };
     std::string line =
         fmt::format(R"("episode":{},"step":{},"depth":{},"iterations":{},"steps":{},"chosen":{},)",
-                    thoughts.episode, thoughts.step, thoughts.depth, thoughts.iterations,
-                    thoughts.steps, thoughts.chosen);
-    if (!thoughts.note.empty())
-        line += fmt::format(R"("note":{},)", json_line(nlohmann::ordered_json(thoughts.note)));
+                    explanation.episode, explanation.step, explanation.depth,
+                    explanation.iterations, explanation.steps, explanation.chosen);
+    if (!explanation.note.empty())
+        line += fmt::format(R"("note":{},)", json_line(nlohmann::ordered_json(explanation.note)));
     line += R"("candidates":[)";
-    for (const planners::Thoughts::Candidate& candidate : thoughts.candidates) {
-        if (&candidate != thoughts.candidates.data()) line += ',';
+    for (const planners::Explanation::Candidate& candidate : explanation.candidates) {
+        if (&candidate != explanation.candidates.data()) line += ',';
         line += fmt::format(R"({{"name":"{}","value":{},"error":{},"trials":{},"action":)",
                             candidate.name, number(candidate.value), number(candidate.error),
                             candidate.trials);

@@ -18,7 +18,7 @@ namespace rddlc::workbench {
 struct PlannerSettings {
     bool cheat = false;        // they see the state of problems that hide it
     std::string explanations;  // a file for what decisions were made by; "": none
-    std::function<void(const planners::Thoughts&)> explain = {};
+    std::function<void(const planners::Explanation&)> explain = {};
 };
 
 // All planners with their options, for --help.
@@ -34,8 +34,8 @@ class Explanations {
     void finish();
 
   private:
-    void take(const planners::Thoughts& thoughts);
-    std::string line_of(const planners::Thoughts& thoughts) const;
+    void take(const planners::Explanation& explanation);
+    std::string line_of(const planners::Explanation& explanation) const;
 
     const rddl_problem& problem_;
     RecordLayout actions_;

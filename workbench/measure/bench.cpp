@@ -105,7 +105,7 @@ BenchReport bench_problem(const ProblemFiles& files, LoadOptions load,
     std::vector<std::int64_t> batches = options.batches;
     if (batches.empty()) batches.push_back(suitable_batch(*simulator.problem));
     const std::int64_t largest = *std::max_element(batches.begin(), batches.end());
-    solvers::require_room(simulator, largest, files.memory_limit);
+    solvers::require_memory(simulator, largest, files.memory_limit);
     report.memory_per_environment = memory_per_environment(simulator, largest);
     measure_all(simulator, batches, options, report);
     return report;

@@ -43,14 +43,14 @@ void write_output(const std::string& path, std::string_view bytes, UsedFiles& us
     file.finish();
 }
 
-using BytesOf = std::string (*)(render::Film&);
+using BytesOf = std::string (*)(render::EpisodeRenderer&);
 
-std::string png_of(render::Film& film) {
-    return render::png_bytes(film.picture());
+std::string png_of(render::EpisodeRenderer& renderer) {
+    return render::png_bytes(renderer.picture());
 }
 
-std::string svg_of(render::Film& film) {
-    return film.svg();
+std::string svg_of(render::EpisodeRenderer& renderer) {
+    return renderer.svg();
 }
 
 // A file of one state. It is written at the end, when all else has gone well.
@@ -62,9 +62,9 @@ Output single_output(const std::string& path, std::optional<std::int64_t> step, 
     output.begin = [](const Show&) {
     };
     output.add = [=](const Drawn& drawn) {
-        const std::int64_t number = drawn.film.moment().now().number;
+        const std::int64_t number = drawn.renderer.snapshot().now().number;
         const bool is_wanted = step ? *step == number : drawn.is_last;
-        if (is_wanted) *bytes = bytes_of(drawn.film);
+        if (is_wanted) *bytes = bytes_of(drawn.renderer);
         if (drawn.is_last && !*bytes)
             throw Failure(
                 fmt::format("there is no state {}: the episode has {} steps", *step, number));
@@ -90,8 +90,8 @@ Output folder_output(const fs::path& folder, const char* ending, BytesOf bytes_o
     };
     output.add = [=, &used](const Drawn& drawn) {
         if (!drawn.in_movie) return false;
-        const std::int64_t number = drawn.film.moment().now().number;
-        write_file(folder / fmt::format("{:06}{}", number, ending), bytes_of(drawn.film), used);
+        const std::int64_t number = drawn.renderer.snapshot().now().number;
+        write_file(folder / fmt::format("{:06}{}", number, ending), bytes_of(drawn.renderer), used);
         return true;
     };
     output.finish = [] {
@@ -140,7 +140,7 @@ Output gif_output(const PictureOptions& options, UsedFiles& used) {
     };
     output.add = [=](const Drawn& drawn) {
         if (drawn.in_movie)
-            gif->writer.add(drawn.film.picture(),
+            gif->writer.add(drawn.renderer.picture(),
                             drawn.is_last ? last_frame_seconds : gif->seconds);
         return drawn.in_movie;
     };
@@ -160,7 +160,7 @@ Output video_output(const PictureOptions& options, UsedFiles& used) {
                        used);
     };
     output.add = [=](const Drawn& drawn) {
-        if (drawn.in_movie) (*video)->add(drawn.film.picture());
+        if (drawn.in_movie) (*video)->add(drawn.renderer.picture());
         return drawn.in_movie;
     };
     output.finish = [=, &used] {
@@ -187,7 +187,7 @@ Output page_output(const PictureOptions& options, UsedFiles& used) {
         (*page)->begin_run(is_utf8(show.name) ? show.name : "episode");
     };
     output.add = [=](const Drawn& drawn) {
-        if (drawn.in_movie) (*page)->add(drawn.film.moment(), drawn.film.picture());
+        if (drawn.in_movie) (*page)->add(drawn.renderer.snapshot(), drawn.renderer.picture());
         return drawn.in_movie;
     };
     output.finish = [=, &used] {

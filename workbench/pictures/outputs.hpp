@@ -5,7 +5,7 @@
 #include "pictures/picture_options.hpp"
 #include "support/files.hpp"
 
-#include <render/film.hpp>
+#include <render/episode_renderer.hpp>
 #include <render/replay_page.hpp>
 
 #include <cstdint>
@@ -23,8 +23,8 @@ struct Show {
 };
 
 struct Drawn {
-    rddl::render::Film& film;  // after the state was added
-    bool in_movie;             // not left out by the stride
+    rddl::render::EpisodeRenderer& renderer;  // after the state was added
+    bool in_movie;                            // not left out by the stride
     bool is_last;
 };
 

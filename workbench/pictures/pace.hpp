@@ -3,7 +3,7 @@
 
 #include "pictures/picture_options.hpp"
 
-#include <render/moment.hpp>
+#include <render/snapshot.hpp>
 
 #include <cstdint>
 

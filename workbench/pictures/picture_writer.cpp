@@ -1,7 +1,7 @@
 #include "pictures/picture_writer.hpp"
 
 #include "pictures/outputs.hpp"
-#include "pictures/reel.hpp"
+#include "pictures/trace_renderer.hpp"
 #include "pictures/watch.hpp"
 #include "scenes/scene.hpp"
 #include "support/diagnostic.hpp"
@@ -9,7 +9,7 @@
 #include "support/suggestion.hpp"
 
 #include <fmt/format.h>
-#include <render/moment.hpp>
+#include <render/snapshot.hpp>
 #include <render/visualizer.hpp>
 
 #include <cstdint>
@@ -83,18 +83,18 @@ struct PictureWriter::State {
           world(*problem.simulator),
           visualizer(choose_visualizer(wanted, problem.files, world)) {
         if (wanted.any_file())
-            reels.emplace_back(world, visualizer, into_files, outputs_of(wanted, used),
-                               wanted.episode.value_or(0), name);
+            renderers.emplace_back(world, visualizer, into_files, outputs_of(wanted, used),
+                                   wanted.episode.value_or(0), name);
         if (wanted.watch)
-            reels.emplace_back(world, visualizer, on_screen, std::vector{watch_output(wanted)},
-                               wanted.episode, name);
+            renderers.emplace_back(world, visualizer, on_screen, std::vector{watch_output(wanted)},
+                                   wanted.episode, name);
     }
 
     PictureOptions into_files, on_screen;
     UsedFiles used;
     render::World world;
     render::Visualizer visualizer;
-    std::deque<Reel> reels;
+    std::deque<TraceRenderer> renderers;
 };
 
 bool can_draw() {
@@ -117,18 +117,18 @@ PictureWriter::PictureWriter(const LoadedProblem& problem, const PictureOptions&
 PictureWriter::~PictureWriter() = default;
 
 void PictureWriter::add_line(std::string_view line) {
-    for (Reel& reel : state_->reels) reel.add_line(line);
+    for (TraceRenderer& renderer : state_->renderers) renderer.add_line(line);
 }
 
 void PictureWriter::begin_second(const std::string& name) {
-    for (Reel& reel : state_->reels) reel.begin_second(name);
+    for (TraceRenderer& renderer : state_->renderers) renderer.begin_second(name);
 }
 
 std::string PictureWriter::finish() {
     StatesDrawn states;
-    for (Reel& reel : state_->reels) {
-        const StatesDrawn of_reel = reel.finish();
-        if (of_reel.drawn > states.drawn) states = of_reel;
+    for (TraceRenderer& renderer : state_->renderers) {
+        const StatesDrawn of_renderer = renderer.finish();
+        if (of_renderer.drawn > states.drawn) states = of_renderer;
     }
     const std::string of =
         states.drawn < states.all ? fmt::format(" of {}", states.all) : std::string();

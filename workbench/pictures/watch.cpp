@@ -85,23 +85,24 @@ std::string cut_off(std::string_view line, std::size_t columns) {
     return text.substr(0, bytes);
 }
 
-std::string heading(const render::Moment& moment) {
-    const render::Step& now = moment.now();
-    std::string text = fmt::format("{}  episode {}  step {}", moment.problem().instance,
-                                   moment.episode(), now.number);
-    if (moment.horizon() > 0) text += fmt::format(" / {}", moment.horizon());
+std::string heading(const render::Snapshot& snapshot) {
+    const render::Step& now = snapshot.now();
+    std::string text = fmt::format("{}  episode {}  step {}", snapshot.problem().instance,
+                                   snapshot.episode(), now.number);
+    if (snapshot.horizon() > 0) text += fmt::format(" / {}", snapshot.horizon());
     text += fmt::format("  return {}", render::number_text(now.total));
-    if (moment.acts()) text += fmt::format("  reward {}", render::number_text(now.reward));
+    if (snapshot.acts()) text += fmt::format("  reward {}", render::number_text(now.reward));
     if (!now.end.empty()) text += "  ended: " + now.end;
     return text;
 }
 
 // Lines of at most so many columns, and no more than there is room for.
-std::vector<std::string> lines_of(const render::Moment& moment, const Size& size, bool in_color) {
-    std::vector<std::string> lines{cut_off(heading(moment), size.columns)};
-    if (moment.acts())
-        lines.push_back(cut_off("action: " + render::action_text(moment), size.columns));
-    const std::vector<render::TextLine> values = render::state_lines(moment);
+std::vector<std::string> lines_of(const render::Snapshot& snapshot, const Size& size,
+                                  bool in_color) {
+    std::vector<std::string> lines{cut_off(heading(snapshot), size.columns)};
+    if (snapshot.acts())
+        lines.push_back(cut_off("action: " + render::action_text(snapshot), size.columns));
+    const std::vector<render::TextLine> values = render::state_lines(snapshot);
     std::size_t widest = 0;
     for (const render::TextLine& line : values) widest = std::max(widest, display_width(line.name));
     widest = std::min(widest, size.columns / 2);
@@ -144,10 +145,10 @@ struct Watch {
     bool has_begun = false;
 
     void show(const Drawn& drawn) {
-        const render::Moment moment = drawn.film.moment();
+        const render::Snapshot snapshot = drawn.renderer.snapshot();
         if (!is_terminal) {
             constexpr Size unlimited{1'000'000, 1'000'000};
-            for (const std::string& line : lines_of(moment, unlimited, false))
+            for (const std::string& line : lines_of(snapshot, unlimited, false))
                 fmt::print("{}\n", line);
             fmt::print("\n");
             std::fflush(stdout);
@@ -156,10 +157,10 @@ struct Watch {
         if (!wait_until(next)) return;
         if (!std::exchange(has_begun, true)) fmt::print("\x1b[2J");
         if (images == Images::None) {
-            show_in_place(lines_of(moment, terminal_size(), tells_in_color()));
+            show_in_place(lines_of(snapshot, terminal_size(), tells_in_color()));
         } else {
-            const std::string png = render::png_bytes(drawn.film.picture());
-            fmt::print("\x1b[H{}\x1b[K\n{}", cut_off(heading(moment), terminal_size().columns),
+            const std::string png = render::png_bytes(drawn.renderer.picture());
+            fmt::print("\x1b[H{}\x1b[K\n{}", cut_off(heading(snapshot), terminal_size().columns),
                        images == Images::Kitty ? kitty_image(png) : iterm_image(png));
         }
         std::fflush(stdout);

@@ -77,11 +77,11 @@ render::Shape shape_of(const SceneProgram& program, const SceneShape& shape,
 }
 
 void draw(SceneProgram& program, render::Canvas& canvas, const render::Box& area,
-          const render::Moment& moment) {
-    const render::Step& now = moment.now();
-    const auto* const action = moment.acts()
-                                   ? now.action.data()
-                                   : static_cast<const std::byte*>(moment.problem().default_action);
+          const render::Snapshot& snapshot) {
+    const render::Step& now = snapshot.now();
+    const auto* const action =
+        snapshot.acts() ? now.action.data()
+                        : static_cast<const std::byte*>(snapshot.problem().default_action);
     program.evaluate(now.state.data(), action);
     const Scene& scene = program.scene();
     std::vector<render::Shape> shapes;
@@ -109,14 +109,14 @@ void draw(SceneProgram& program, render::Canvas& canvas, const render::Box& area
 render::Visualizer scene_visualizer(const ProblemFiles& files,
                                     const std::filesystem::path& scene_file) {
     const auto program = std::make_shared<SceneProgram>(files, scene_file);
-    return {
-        "scene",
-        "a scene file",
-        {},
-        {},
-        [program](render::Canvas& canvas, const render::Box& area, const render::Moment& moment) {
-            draw(*program, canvas, area, moment);
-        }};
+    return {"scene",
+            "a scene file",
+            {},
+            {},
+            [program](render::Canvas& canvas, const render::Box& area,
+                      const render::Snapshot& snapshot) {
+                draw(*program, canvas, area, snapshot);
+            }};
 }
 
 }  // namespace rddlc::workbench

@@ -8,7 +8,7 @@
 #include "support/suggestion.hpp"
 
 #include <fmt/format.h>
-#include <render/moment.hpp>
+#include <render/snapshot.hpp>
 
 #include <algorithm>
 #include <cstring>

@@ -47,7 +47,7 @@ std::string Expressions::enter(ir::VariableId variable) {
     return variables_[variable] = scope_.claim(unit_.program[variable].name);
 }
 
-const Expressions::SeveralObjects& Expressions::enter(ir::Nest nest) {
+const Expressions::ObjectLanes& Expressions::enter(ir::Nest nest) {
     std::string wish;
     for (const ir::VariableId variable : nest.variables)
         wish += (wish.empty() ? "" : "_") + unit_.program[variable].name;
@@ -177,7 +177,7 @@ bool Expressions::needs_no_check(const ir::Sample& sample) const {
     if (sample.distribution != Distribution::Bernoulli) return false;
     const ir::NodeId p = sample.parameters.front();
     if (std::holds_alternative<ir::Constant>(unit_.program[p].form)) return false;
-    return always_in_domain(sample.distribution, std::array{unit_.facts_of(p).range});
+    return always_in_domain(sample.distribution, std::array{unit_.properties_of(p).range});
 }
 
 Expression Expressions::lower(const ir::Node&, const ir::Discrete& discrete) {
@@ -253,7 +253,7 @@ Expression Expressions::range(const ir::Reduce& reduce) {
 }
 
 Expression Expressions::parameter(ir::VariableId variable, ir::NodeId body) const {
-    const auto& used = unit_.facts_of(body).free_variables;
+    const auto& used = unit_.properties_of(body).free_variables;
     if (!std::ranges::binary_search(used, variable)) return word("rddl::Index");
     return {tree::Declared{"rddl::Index", variables_.at(variable)}};
 }
@@ -360,7 +360,7 @@ Expression Expressions::lower(const ir::Node&, const ir::Load& load) {
     if (several_ && ir::begins_with(unit_.program, load.indices, several_->nest))
         return at("rddl::at", several_->nest.variables.size());
     const bool is_same_for_all = std::ranges::all_of(indices, [&](ir::NodeId id) {
-        return !several_ || ir::is_same_for_all(unit_.facts_of(id), several_->nest);
+        return !several_ || ir::is_same_for_all(unit_.properties_of(id), several_->nest);
     });
     if (!is_same_for_all) return at("rddl::at_own", 0);
     const auto next =

@@ -81,11 +81,11 @@ class Expressions {
     std::string enter(ir::VariableId variable);
     // From here on loops run over several objects at once; the names of their context and of the
     // objects. Ended by `leave_nest`.
-    struct SeveralObjects {
+    struct ObjectLanes {
         ir::Nest nest;
         std::string context, objects;
     };
-    const SeveralObjects& enter(ir::Nest nest);
+    const ObjectLanes& enter(ir::Nest nest);
     bool is_over_several() const { return several_.has_value(); }
     void leave_nest() { several_.reset(); }
     // What draws and branches take.
@@ -151,7 +151,7 @@ class Expressions {
     std::vector<Naming> namings_;  // to be undone, since copies of all names would be too many
     std::map<ir::VariableId, std::string> variables_;
     std::map<ir::LocalId, std::string> locals_;
-    std::optional<SeveralObjects> several_;
+    std::optional<ObjectLanes> several_;
     Uses uses_;
     static constexpr std::size_t all_nodes = std::numeric_limits<std::size_t>::max();
     std::size_t nodes_left_ = all_nodes;  // that may be lowered

@@ -16,7 +16,7 @@ namespace {
 
 // Longer conditions get a name.
 constexpr std::size_t longest_condition = 45;
-// In operations (Facts::cost): what packs may compute for all lanes though no lane needs it.
+// In operations (Properties::cost): what packs may compute for all lanes though no lane needs it.
 constexpr double cost_without_jumps = 128;
 // Longer operands of a chain get a name of their own instead of a line of their own.
 constexpr std::size_t longest_operand = 75;
@@ -215,7 +215,7 @@ void FunctionBody::prepare_weights(const ir::Discrete& discrete) {
 void FunctionBody::name_parts_in_order(ir::NodeId id) {
     const std::vector<ir::NodeId> parts = eager_parts(id);
     const auto may_fault = [&](ir::NodeId part) {
-        return !expressions_.is_named(part) && expressions_.unit().facts_of(part).may_fault;
+        return !expressions_.is_named(part) && expressions_.unit().properties_of(part).may_fault;
     };
     for (auto part = parts.begin(); part != parts.end(); ++part) {
         const bool is_binder_block = is_block(*part) && is_binder(program()[*part]);
@@ -313,10 +313,10 @@ tree::Expression FunctionBody::branch(const ir::Select& select) {
 
 bool FunctionBody::are_harmless(const std::vector<ir::NodeId>& lambdas) const {
     double cost = 0;
-    for (ir::NodeId lambda : lambdas) cost += expressions_.unit().facts_of(lambda).cost;
+    for (ir::NodeId lambda : lambdas) cost += expressions_.unit().properties_of(lambda).cost;
     return cost <= cost_without_jumps && std::ranges::all_of(lambdas, [&](ir::NodeId lambda) {
-               const ir::Facts& facts = expressions_.unit().facts_of(lambda);
-               return ir::is_droppable(facts) && !facts.elementary;
+               const ir::Properties& properties = expressions_.unit().properties_of(lambda);
+               return ir::is_droppable(properties) && !properties.elementary;
            });
 }
 

@@ -27,7 +27,7 @@ Unit::Unit(const ir::Program& the_program, const Sources& the_sources,
       sources(the_sources),
       options(the_options),
       names(names_of(the_program)),
-      facts(ir::all_facts(the_program)),
+      properties(ir::all_properties(the_program)),
       uniform_ints(the_program.nodes.size(), false),
       contains_branch(the_program.nodes.size(), false) {
     for (std::size_t index = 0; index < program.nodes.size(); ++index) {
@@ -45,7 +45,8 @@ Unit::Unit(const ir::Program& the_program, const Sources& the_sources,
 }
 
 bool Unit::is_lazy(const ir::Select& select) const {
-    return ir::is_lazy(program, select, facts_of(select.then_value), facts_of(select.else_value));
+    return ir::is_lazy(program, select, properties_of(select.then_value),
+                       properties_of(select.else_value));
 }
 
 std::string Unit::size_of(const ir::Variable& variable) const {

@@ -1,4 +1,5 @@
-// What every part of the emitter looks at: the program with its names and facts. Nothing changes.
+// What every part of the emitter looks at: the program with its names and properties. Nothing
+// changes.
 #pragma once
 
 #include "emit/emit.hpp"
@@ -19,11 +20,11 @@ struct Unit {
     const Sources& sources;
     const EmitOptions& options;
     Names names;
-    std::vector<ir::Facts> facts;       // by NodeId
-    std::vector<bool> uniform_ints;     // by NodeId; is_uniform tells
-    std::vector<bool> contains_branch;  // by NodeId: it is a lazy select, or has one inside
+    std::vector<ir::Properties> properties;  // by NodeId
+    std::vector<bool> uniform_ints;          // by NodeId; is_uniform tells
+    std::vector<bool> contains_branch;       // by NodeId: it is a lazy select, or has one inside
 
-    const ir::Facts& facts_of(ir::NodeId id) const { return facts[id.index]; }
+    const ir::Properties& properties_of(ir::NodeId id) const { return properties[id.index]; }
 
     // An int that is spelled as one, not as one for each lane: made of loop indices, constants and
     // entries of constant tables by operators alone. It may stand in array[i], and number a place.

@@ -54,7 +54,7 @@ class BitCounting {
         const std::optional<CountedNest> nest = nest_of(id);
         if (!nest) return std::nullopt;
         places_.reset();
-        variables_ = builder_.facts(id).free_variables;
+        variables_ = builder_.properties(id).free_variables;
         if (!find_places(*nest) || !is_worthwhile(*nest)) return std::nullopt;
         ++report_["aggregations that count bits"];
         return nest->op == Reduction::Sum ? sum(*nest) : tested(*nest);
@@ -113,7 +113,7 @@ class BitCounting {
     }
 
     void collect_known(ir::NodeId id, std::vector<ir::NodeId>& known) const {
-        if (builder_.facts(id).uniform) return known.push_back(id);
+        if (builder_.properties(id).uniform) return known.push_back(id);
         if (std::holds_alternative<ir::Load>(program_[id].form)) return;
         for (const ir::NodeId operand : ir::operands_of(program_[id]))
             collect_known(operand, known);
@@ -141,11 +141,11 @@ class BitCounting {
 
     // Connectives of elements of tables of bools, and of what the compiler knows.
     bool is_about_bools(ir::NodeId id) const {
-        const ir::Facts& facts = builder_.facts(id);
-        if (facts.uniform) return !facts.may_fault;
+        const ir::Properties& properties = builder_.properties(id);
+        if (properties.uniform) return !properties.may_fault;
         if (const auto* load = std::get_if<ir::Load>(&program_[id].form)) {
             return std::ranges::all_of(load->indices, [&](ir::NodeId index) {
-                return builder_.facts(index).uniform && !builder_.facts(index).may_fault;
+                return builder_.properties(index).uniform && !builder_.properties(index).may_fault;
             });
         }
         const auto* apply = std::get_if<ir::Apply>(&program_[id].form);
@@ -155,7 +155,7 @@ class BitCounting {
     }
 
     void collect_loads(ir::NodeId id, std::vector<ir::NodeId>& loads) const {
-        if (builder_.facts(id).uniform) return;
+        if (builder_.properties(id).uniform) return;
         if (std::holds_alternative<ir::Load>(program_[id].form)) return loads.push_back(id);
         for (const ir::NodeId operand : ir::operands_of(program_[id]))
             collect_loads(operand, loads);
@@ -252,7 +252,7 @@ class BitCounting {
         const auto rows = static_cast<double>(places_->size());
         const double in_bits =
             static_cast<double>(size_) + rows * static_cast<double>(word_count()) * cost_of_word;
-        return entries * (builder_.facts(nest.condition).cost + cost_of_entry) > in_bits;
+        return entries * (builder_.properties(nest.condition).cost + cost_of_entry) > in_bits;
     }
 
     // ------------------------------------------------------------------------------- making
@@ -291,7 +291,7 @@ class BitCounting {
 
     // Ones for the elements of a word where the condition is `value`, whether or not they count.
     ir::NodeId word_of(const CountedNest& nest, ir::NodeId id, bool value, std::int64_t word) {
-        if (builder_.facts(id).uniform) return known_word(nest, id, value, word);
+        if (builder_.properties(id).uniform) return known_word(nest, id, value, word);
         if (const auto* load = std::get_if<ir::Load>(&program_[id].form)) {
             const ir::NodeId bits = builder_.bits(load->buffer, word * bits_in_an_int);
             return value ? bits : inverted(bits);
@@ -304,7 +304,7 @@ class BitCounting {
 
     // Whether its words are 0 where there are no elements.
     bool is_zero_beyond_end(ir::NodeId id, bool value) const {
-        if (builder_.facts(id).uniform) return true;
+        if (builder_.properties(id).uniform) return true;
         if (std::holds_alternative<ir::Load>(program_[id].form)) return value;
         const Connective form = connective(id, value);
         const bool a = is_zero_beyond_end(form.a.id, form.a.value);

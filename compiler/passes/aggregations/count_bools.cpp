@@ -86,7 +86,7 @@ class Splitting {
     // Of a bool, or of an int that is never negative.
     std::optional<double> greatest(ir::NodeId id) const {
         if (builder_.program()[id].type == ir::Scalar::Bool) return 1;
-        const auto& range = builder_.facts(id).range;
+        const auto& range = builder_.properties(id).range;
         if (!range || range->lower < 0) return std::nullopt;
         return range->upper;
     }
@@ -99,8 +99,8 @@ class BoolCounting {
     BoolCounting(ir::Builder& builder, const ir::Reduce& sum) : builder_(builder), sum_(sum) {}
 
     std::optional<ir::NodeId> counted() {
-        const bool is_random = builder_.facts(sum_.body).random;
-        if (is_random || builder_.facts(sum_.body).may_fault) return std::nullopt;
+        const bool is_random = builder_.properties(sum_.body).random;
+        if (is_random || builder_.properties(sum_.body).may_fault) return std::nullopt;
         const Splitting splitting(builder_);
         const auto terms = splitting.terms_of(sum_.body);
         if (!terms || terms->empty()) return std::nullopt;

@@ -43,7 +43,7 @@ class Factoring {
     std::optional<FactoredNest> nest_of(const ir::Reduce& outermost, ir::Scalar type) const {
         const bool exact =
             type == ir::Scalar::Bool || (type == ir::Scalar::Int && outermost.op == Reduction::Sum);
-        if (!exact || outermost.bounds || builder_.facts(outermost.body).may_fault) {
+        if (!exact || outermost.bounds || builder_.properties(outermost.body).may_fault) {
             return std::nullopt;
         }
         FactoredNest nest{outermost.op, {outermost.variable}, {}};
@@ -105,7 +105,7 @@ class Factoring {
                                        [&](ir::NodeId id) { return depends(id, variable); });
         };
         return std::ranges::any_of(whole.factors, [&](ir::NodeId factor) {
-            return !std::ranges::all_of(builder_.facts(factor).free_variables, is_needed);
+            return !std::ranges::all_of(builder_.properties(factor).free_variables, is_needed);
         });
     }
 
@@ -140,7 +140,7 @@ class Factoring {
         return constant && constant->value == ir::Value(std::int64_t{0});
     }
     bool depends(ir::NodeId id, ir::VariableId variable) const {
-        return std::ranges::binary_search(builder_.facts(id).free_variables, variable);
+        return std::ranges::binary_search(builder_.properties(id).free_variables, variable);
     }
     const ir::Program& program() const { return builder_.program(); }
 

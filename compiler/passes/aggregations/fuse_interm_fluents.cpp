@@ -13,7 +13,7 @@
 namespace rddlc::passes {
 namespace {
 
-// What takes more operations (Facts::cost) is not repeated where it is read in several places.
+// What takes more operations (Properties::cost) is not repeated where it is read in several places.
 constexpr double cheap_to_repeat = 2;
 // A single value that takes more is worth a name. As is what share_subexpressions would name.
 constexpr double worth_a_definition = 6;
@@ -50,26 +50,26 @@ class Fusion {
         if (buffer.storage != ir::Storage::Scratch || readers.functions || readers.reads == 0)
             return;
         auto plain = plain_definition(program_, definition);
-        if (!plain || !is_worth_it(builder_.facts(plain->value), readers, buffer) ||
+        if (!plain || !is_worth_it(builder_.properties(plain->value), readers, buffer) ||
             !may_move(plain->value, readers))
             return;
         ++report_["interm-fluents fused"];
         fluents_[definition.target] = *std::move(plain);
     }
 
-    static bool is_worth_it(const ir::Facts& facts, const Readers& readers,
+    static bool is_worth_it(const ir::Properties& properties, const Readers& readers,
                             const ir::Buffer& buffer) {
-        if (readers.places > 1 && facts.cost > cheap_to_repeat) return false;
-        if (buffer.count() == 1 && facts.cost > worth_a_definition) return false;
+        if (readers.places > 1 && properties.cost > cheap_to_repeat) return false;
+        if (buffer.count() == 1 && properties.cost > worth_a_definition) return false;
         const double before =
-            static_cast<double>(buffer.count()) * (facts.cost + 1) + readers.reads;
-        return readers.reads * facts.cost <= before;
+            static_cast<double>(buffer.count()) * (properties.cost + 1) + readers.reads;
+        return readers.reads * properties.cost <= before;
     }
 
     // Into all of its readers.
     bool may_move(ir::NodeId value, const Readers& readers) const {
-        const ir::Facts& facts = builder_.facts(value);
-        if (facts.may_fault || reads_what_functions_use(value)) return false;
+        const ir::Properties& properties = builder_.properties(value);
+        if (properties.may_fault || reads_what_functions_use(value)) return false;
         if (readers.lazy && repeats_something(value)) return false;
         const std::set<ir::VariableId> bound = bound_variables(program_, value);
         const auto is_bound_there = [&](ir::VariableId variable) {
@@ -79,8 +79,8 @@ class Fusion {
         // A fault of an index would be lost where the value does not depend on it. The place of a
         // draw is known to the compiler.
         const auto is_plain = [&](ir::NodeId index) {
-            const ir::Facts& known = builder_.facts(index);
-            return !known.may_fault && (!facts.random || known.uniform);
+            const ir::Properties& known = builder_.properties(index);
+            return !known.may_fault && (!properties.random || known.uniform);
         };
         return std::ranges::all_of(readers.loads, [&](ir::NodeId load) {
             return std::ranges::all_of(std::get<ir::Load>(program_[load].form).indices, is_plain);
@@ -93,7 +93,7 @@ class Fusion {
         std::map<ir::NodeId, int, std::greater<>> uses = {{value, 1}};
         for (; !uses.empty(); uses.erase(uses.begin())) {
             const auto [id, count] = *uses.begin();
-            if (count > 1 && builder_.facts(id).cost >= worth_a_definition) return true;
+            if (count > 1 && builder_.properties(id).cost >= worth_a_definition) return true;
             for (ir::NodeId operand : ir::operands_of(program_[id])) ++uses[operand];
         }
         return false;

@@ -14,7 +14,8 @@
 namespace rddlc::passes {
 namespace {
 
-// In operations (Facts::cost): what is worth a table, and what writing or reading an element costs.
+// In operations (Properties::cost): what is worth a table, and what writing or reading an element
+// costs.
 constexpr double worth_hoisting = 8;
 constexpr double cost_of_element = 2;
 // The work must shrink to less than this part, since branches may skip some of it.
@@ -108,20 +109,21 @@ class Hoisting {
     }
 
     bool is_worthwhile(ir::NodeId id, const Variables& around, std::size_t loops) const {
-        const ir::Facts& facts = builder_.facts(id);
-        if (facts.may_fault || facts.uniform || facts.cost < worth_hoisting) return false;
-        if (facts.free_variables.empty() || is_fixed_by_loops(id, around, loops)) return false;
-        const double entries = product_of_sizes(facts.free_variables);
+        const ir::Properties& properties = builder_.properties(id);
+        if (properties.may_fault || properties.uniform || properties.cost < worth_hoisting)
+            return false;
+        if (properties.free_variables.empty() || is_fixed_by_loops(id, around, loops)) return false;
+        const double entries = product_of_sizes(properties.free_variables);
         const double evaluations = product_of_sizes(around);
         const double hoisted =
-            entries * (facts.cost + cost_of_element) + evaluations * cost_of_element;
+            entries * (properties.cost + cost_of_element) + evaluations * cost_of_element;
         return entries <= most_hoisted_elements &&
-               hoisted < worthwhile * evaluations * facts.cost && is_known_before(id);
+               hoisted < worthwhile * evaluations * properties.cost && is_known_before(id);
     }
 
     // It depends on outer loops alone.
     bool is_fixed_by_loops(ir::NodeId id, const Variables& around, std::size_t loops) const {
-        const auto& variables = builder_.facts(id).free_variables;
+        const auto& variables = builder_.properties(id).free_variables;
         return std::all_of(variables.begin(), variables.end(), [&](ir::VariableId variable) {
             const auto place =
                 static_cast<std::size_t>(std::ranges::find(around, variable) - around.begin());
@@ -152,7 +154,7 @@ class Hoisting {
     void make_table(ir::NodeId id, const Variables& around, ir::Block& before) {
         Variables dimensions;
         for (ir::VariableId variable : around) {
-            const auto& needed = builder_.facts(id).free_variables;
+            const auto& needed = builder_.properties(id).free_variables;
             if (std::ranges::binary_search(needed, variable)) dimensions.push_back(variable);
         }
         // What its value consists of may become tables, too.
@@ -181,7 +183,7 @@ class Hoisting {
             const ir::Variable& dimension = program_[variable];
             name += "-" + (dimension.type ? program_.types[*dimension.type].name : dimension.name);
         }
-        return builder_.tables().scratch(name, program_[id].type, builder_.facts(id).range,
+        return builder_.tables().scratch(name, program_[id].type, builder_.properties(id).range,
                                          dimensions, span_);
     }
 

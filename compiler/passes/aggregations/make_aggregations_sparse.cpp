@@ -82,7 +82,7 @@ class Rewriting {
 
     // The innermost scope that replaces a variable of the node.
     Scope& scope_of(ir::NodeId id, Scope& innermost) const {
-        const auto& variables = builder_.facts(id).free_variables;
+        const auto& variables = builder_.properties(id).free_variables;
         const auto is_used = [&](const Axis& axis) {
             return std::ranges::binary_search(variables, axis.variable);
         };
@@ -127,12 +127,13 @@ class Rewriting {
 
     // The same in all environments, and not just arithmetic of objects.
     bool is_fixed(ir::NodeId id, const Scope& scope) const {
-        const ir::Facts& facts = builder_.facts(id);
+        const ir::Properties& properties = builder_.properties(id);
         const auto is_known = [&](ir::VariableId variable) {
             return scope.relation.has(variable);
         };
-        return facts.uniform && std::ranges::all_of(facts.free_variables, is_known) &&
-               facts.cost * static_cast<double>(scope.relation.count()) <= affordable_for_entries &&
+        return properties.uniform && std::ranges::all_of(properties.free_variables, is_known) &&
+               properties.cost * static_cast<double>(scope.relation.count()) <=
+                   affordable_for_entries &&
                (program_[id].type != ir::Scalar::Int || reads_table(id));
     }
 
@@ -189,8 +190,7 @@ class Rewriting {
         Nest nest = nest_of(reduce);
         std::vector<ir::NodeId> doubtful;
         std::optional<Relation> found = pattern_.of(nest.body, *neutral);
-        if (!found && reduce.op == Reduction::Sum)
-            found = pattern_.of_term(reduce.body, doubtful);
+        if (!found && reduce.op == Reduction::Sum) found = pattern_.of_term(reduce.body, doubtful);
         if (!found || pattern_.depend(doubtful, reduce.variable)) return std::nullopt;
         Scope scope = scope_for(*found, nest, outer);
         if (!doubtful.empty() && !lacks_entries_in_each_row(scope)) return std::nullopt;
@@ -265,7 +265,7 @@ class Rewriting {
         const auto count = static_cast<double>(scope.relation.count());
         const auto row_count = static_cast<double>(*rows);
         if (row_count > std::max(most_empty_rows, 4 * count)) return false;
-        const double cost = builder_.facts(body).cost + 1;
+        const double cost = builder_.properties(body).cost + 1;
         const double all = static_cast<double>(*columns) * cost;
         return all > cheap_loop && all > count / row_count * (cost + cost_of_entry);
     }
@@ -288,8 +288,8 @@ class Rewriting {
     // Where all entries of a row have the same term, it matters only how many there are.
     std::optional<ir::NodeId> of_equal_terms(Reduction op, ir::NodeId term, ir::Bounds row,
                                              ir::VariableId entry) {
-        const ir::Facts& facts = builder_.facts(term);
-        if (std::ranges::binary_search(facts.free_variables, entry)) return std::nullopt;
+        const ir::Properties& properties = builder_.properties(term);
+        if (std::ranges::binary_search(properties.free_variables, entry)) return std::nullopt;
         const std::vector ends = {row.begin, row.end};
         if (op == Reduction::Exists) {
             return builder_.apply(Operator::And, {builder_.apply(Operator::Less, ends), term});
@@ -298,7 +298,7 @@ class Rewriting {
             return builder_.apply(Operator::Or, {builder_.apply(Operator::Equal, ends), term});
         }
         const bool is_int_sum = op == Reduction::Sum && program_[term].type == ir::Scalar::Int;
-        if (!is_int_sum || facts.may_fault) return std::nullopt;
+        if (!is_int_sum || properties.may_fault) return std::nullopt;
         const ir::NodeId count = builder_.apply(Operator::Subtract, {row.end, row.begin});
         return builder_.apply(Operator::Multiply, {count, term});
     }
@@ -379,7 +379,7 @@ class Rewriting {
     }
 
     void collect_tables(ir::NodeId id, const Scope& scope, std::set<ir::BufferId>& tables) const {
-        const auto& variables = builder_.facts(id).free_variables;
+        const auto& variables = builder_.properties(id).free_variables;
         const bool varies = std::ranges::any_of(scope.axes(), [&](const Axis& axis) {
             return std::ranges::binary_search(variables, axis.variable);
         });

@@ -21,7 +21,8 @@ bool have_same_numbers(const ir::Program& program, const ir::Sample& a, const ir
 
 bool may_be_wrong(const ir::Builder& builder, const ir::Sample& sample) {
     std::vector<std::optional<Range>> ranges;
-    for (ir::NodeId parameter : sample.parameters) ranges.push_back(builder.facts(parameter).range);
+    for (ir::NodeId parameter : sample.parameters)
+        ranges.push_back(builder.properties(parameter).range);
     return !always_in_domain(sample.distribution, ranges);
 }
 

@@ -68,7 +68,7 @@ std::optional<OnlyObject> OnlyObjects::fulfilling(const Condition& condition,
 // The object for which `side`, made of the variable alone, equals the other side.
 std::optional<OnlyObject> OnlyObjects::equal_to(ir::NodeId side, ir::NodeId other,
                                                 ir::VariableId variable) {
-    if (depends_on(other, variable) || builder_.facts(other).may_fault) return std::nullopt;
+    if (depends_on(other, variable) || builder_.properties(other).may_fault) return std::nullopt;
     const auto* index = std::get_if<ir::Index>(&program_[side].form);
     if (index && index->variable == variable) {
         const std::int64_t last = program_[variable].size - 1;
@@ -172,11 +172,11 @@ ir::NodeId OnlyObjects::load(const ir::Buffer& like, const std::string& suffix, 
 // ---------------------------------------------------------------------------------- ranges
 
 bool OnlyObjects::depends_on(ir::NodeId id, ir::VariableId variable) const {
-    return std::ranges::binary_search(builder_.facts(id).free_variables, variable);
+    return std::ranges::binary_search(builder_.properties(id).free_variables, variable);
 }
 
 bool OnlyObjects::is_within(ir::NodeId id, std::int64_t first, std::int64_t last) const {
-    const auto& range = builder_.facts(id).range;
+    const auto& range = builder_.properties(id).range;
     return range && range->lower >= static_cast<double>(first) &&
            range->upper <= static_cast<double>(last);
 }

@@ -3,7 +3,7 @@
 #include "ir/rewrite.hpp"
 #include "passes/aggregations/take_only_objects.hpp"
 #include "passes/analyses/constant_values.hpp"
-#include "passes/analyses/pieces.hpp"
+#include "passes/analyses/piecewise_constant.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -13,7 +13,7 @@
 namespace rddlc::passes {
 namespace {
 
-// In operations (Facts::cost), of evaluating an expression for all pieces.
+// In operations (Properties::cost), of evaluating an expression for all pieces.
 constexpr double affordable_for_pieces = 1e7;
 // The same for all expressions.
 constexpr double affordable_for_all_pieces = 1e8;
@@ -28,8 +28,9 @@ class Trying {
         : builder_(builder), evaluator_(evaluator), local_(local) {}
 
     // `left` is what may be spent; it gets less.
-    bool is_affordable(ir::NodeId id, const Pieces& pieces, double& left) const {
-        const double cost = builder_.facts(id).cost * static_cast<double>(pieces.breaks.size() + 2);
+    bool is_affordable(ir::NodeId id, const PiecewiseConstant& pieces, double& left) const {
+        const double cost =
+            builder_.properties(id).cost * static_cast<double>(pieces.breaks.size() + 2);
         if (cost > affordable_for_pieces || cost > left) return false;
         left -= cost;
         return true;
@@ -37,7 +38,8 @@ class Trying {
 
     // Each by the objects of the variables, row-major. None if nan behaves like no piece.
     std::optional<std::vector<std::vector<ir::Value>>> of(
-        ir::NodeId id, const Pieces& pieces, const std::vector<ir::VariableId>& variables) {
+        ir::NodeId id, const PiecewiseConstant& pieces,
+        const std::vector<ir::VariableId>& variables) {
         const ir::Scalar type = builder_.program()[pieces.number].type;
         std::map<ir::NodeId, ir::NodeId> known = {{pieces.number, builder_.local(local_, type)}};
         const ir::NodeId value = ir::replace_in(builder_, id, known);
@@ -71,8 +73,8 @@ std::string name_of_number(const ir::Program& program, ir::NodeId number) {
 }
 
 // A table over the pieces or their breaks.
-ir::BufferId new_table(ir::Builder& builder, const Pieces& pieces, const std::string& suffix,
-                       std::vector<ir::Value> values) {
+ir::BufferId new_table(ir::Builder& builder, const PiecewiseConstant& pieces,
+                       const std::string& suffix, std::vector<ir::Value> values) {
     const ir::Program& program = builder.program();
     ir::Buffer table{.name = name_of_number(program, pieces.number) + suffix,
                      .storage = ir::Storage::Constant,
@@ -84,7 +86,7 @@ ir::BufferId new_table(ir::Builder& builder, const Pieces& pieces, const std::st
 }
 
 // Joins neighbours of equal values. The values are those of the pieces that are left.
-std::vector<ir::Value> joined(Pieces& pieces, const std::vector<ir::Value>& values) {
+std::vector<ir::Value> joined(PiecewiseConstant& pieces, const std::vector<ir::Value>& values) {
     std::vector<ir::Value> breaks, entries, left = {values.front()};
     for (std::size_t k = 0; k < pieces.breaks.size(); ++k) {
         if (identical(values[k], values[k + 1])) continue;
@@ -97,7 +99,7 @@ std::vector<ir::Value> joined(Pieces& pieces, const std::vector<ir::Value>& valu
     return left;
 }
 
-ir::NodeId search(ir::Builder& builder, const Pieces& pieces) {
+ir::NodeId search(ir::Builder& builder, const PiecewiseConstant& pieces) {
     return builder.search(new_table(builder, pieces, "-breaks", pieces.entries), pieces.number);
 }
 
@@ -126,9 +128,10 @@ class PieceTabulation {
 
   private:
     std::optional<ir::NodeId> looked_up(ir::NodeId id) {
-        const ir::Facts facts = builder_.facts(id);
-        if (facts.uniform || !facts.free_variables.empty() || facts.may_fault) return std::nullopt;
-        auto pieces = pieces_of(builder_, evaluator_, id);
+        const ir::Properties properties = builder_.properties(id);
+        if (properties.uniform || !properties.free_variables.empty() || properties.may_fault)
+            return std::nullopt;
+        auto pieces = piecewise_constant_of(builder_, evaluator_, id);
         if (!pieces) return std::nullopt;
         Trying trying(builder_, evaluator_, local_);
         if (!trying.is_affordable(id, *pieces, left_)) return std::nullopt;
@@ -139,7 +142,8 @@ class PieceTabulation {
         values = joined(*pieces, values);
         if (pieces->breaks.empty()) return builder_.constant(values.front());
         const double steps = std::log2(static_cast<double>(pieces->breaks.size())) + 1;
-        if (facts.cost - builder_.facts(pieces->number).cost < worth_a_search * (2 * steps + 1))
+        if (properties.cost - builder_.properties(pieces->number).cost <
+            worth_a_search * (2 * steps + 1))
             return std::nullopt;
         ++report_["aggregations made a search"];
         const ir::NodeId place = search(builder_, *pieces);
@@ -164,12 +168,12 @@ class ObjectsOfPieces {
     // Always of the same program.
     std::optional<OnlyObject> find(ir::Program& program, ir::Builder& builder,
                                    const Condition& condition, ir::VariableId variable) {
-        const ir::Facts facts = builder.facts(condition.id);
-        const bool is_only_variable = facts.free_variables == std::vector{variable};
-        if (facts.uniform || !is_only_variable || facts.may_fault) return std::nullopt;
+        const ir::Properties properties = builder.properties(condition.id);
+        const bool is_only_variable = properties.free_variables == std::vector{variable};
+        if (properties.uniform || !is_only_variable || properties.may_fault) return std::nullopt;
         if (!compares_one_number(builder, condition.id)) return std::nullopt;
         know(program);
-        const auto pieces = pieces_of(builder, *evaluator_, condition.id);
+        const auto pieces = piecewise_constant_of(builder, *evaluator_, condition.id);
         Trying trying(builder, *evaluator_, local_);
         if (!pieces || !trying.is_affordable(condition.id, *pieces, left_)) return std::nullopt;
         const auto tried = trying.of(condition.id, *pieces, {variable});

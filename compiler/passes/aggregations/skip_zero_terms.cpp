@@ -7,7 +7,7 @@
 namespace rddlc::passes {
 namespace {
 
-// In operations (Facts::cost): more than a branch that is not foreseen.
+// In operations (Properties::cost): more than a branch that is not foreseen.
 constexpr double expensive = 20;
 
 // The bool that a number is; none if it is another number.
@@ -17,8 +17,8 @@ std::optional<ir::NodeId> bool_of(const ir::Program& program, ir::NodeId id) {
     return convert->operand;
 }
 
-bool may_be_skipped(const ir::Facts& facts) {
-    return facts.cost >= expensive && facts.finite && ir::is_droppable(facts);
+bool may_be_skipped(const ir::Properties& properties) {
+    return properties.cost >= expensive && properties.finite && ir::is_droppable(properties);
 }
 
 // The term as a choice between itself and zero.
@@ -28,7 +28,7 @@ std::optional<ir::NodeId> chosen(ir::Builder& builder, ir::NodeId term) {
     const std::vector<ir::NodeId> factors = product->operands;
     for (const std::size_t k : {0, 1}) {
         const auto counts = bool_of(builder.program(), factors[k]);
-        if (counts && may_be_skipped(builder.facts(factors[1 - k])))
+        if (counts && may_be_skipped(builder.properties(factors[1 - k])))
             return builder.select(*counts, factors[1 - k], builder.constant(0.0));
     }
     return std::nullopt;

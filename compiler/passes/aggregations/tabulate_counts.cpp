@@ -16,8 +16,8 @@ namespace rddlc::passes {
 namespace {
 
 constexpr double largest_range = 256;
-// In operations (Facts::cost): what is worth loading an element of a table instead, and how many
-// elements each of them is worth.
+// In operations (Properties::cost): what is worth loading an element of a table instead, and how
+// many elements each of them is worth.
 constexpr double worth_a_count_table = 8;
 constexpr double elements_for_an_operation = 64;
 // A table of several kinds of objects has this many times fewer rows, at least.
@@ -54,32 +54,32 @@ class CountTabulation {
     // --------------------------------------------------------------------------- finding
 
     Dependence dependence_of(ir::NodeId id) const {
-        const ir::Facts& facts = builder_.facts(id);
-        if (facts.uniform) return {.count = {}, .cost = facts.cost};
+        const ir::Properties& properties = builder_.properties(id);
+        if (properties.uniform) return {.count = {}, .cost = properties.cost};
         if (is_count(id)) return {.count = id};
-        Dependence dependence{.count = {}, .cost = facts.cost};
+        Dependence dependence{.count = {}, .cost = properties.cost};
         for (ir::NodeId operand : ir::operands_of(program_[id])) {
             const Dependence& other = dependences_[operand.index];
             const bool agrees =
                 !other.count || !dependence.count || other.count == dependence.count;
             dependence.only_count &= other.only_count && agrees;
             if (other.count) dependence.count = other.count;
-            dependence.cost -= builder_.facts(operand).cost - other.cost;
+            dependence.cost -= builder_.properties(operand).cost - other.cost;
         }
         dependence.only_count &= dependence.count.has_value();
         return dependence;
     }
 
     bool is_count(ir::NodeId id) const {
-        const ir::Facts& facts = builder_.facts(id);
-        return program_[id].type == ir::Scalar::Int && !facts.may_fault && facts.range &&
-               facts.range->upper - facts.range->lower < largest_range;
+        const ir::Properties& properties = builder_.properties(id);
+        return program_[id].type == ir::Scalar::Int && !properties.may_fault && properties.range &&
+               properties.range->upper - properties.range->lower < largest_range;
     }
 
     // What it depends on is bound outside of it.
     bool is_bound_inside(ir::NodeId count, ir::NodeId id) const {
-        return !std::ranges::includes(builder_.facts(id).free_variables,
-                                      builder_.facts(count).free_variables);
+        return !std::ranges::includes(builder_.properties(id).free_variables,
+                                      builder_.properties(count).free_variables);
     }
 
     // ------------------------------------------------------------------------- replacing
@@ -125,7 +125,7 @@ class CountTabulation {
 
     // The expression for each value of the count.
     std::vector<ir::NodeId> cases_of(ir::NodeId id, ir::NodeId count) {
-        const Range range = *builder_.facts(count).range;
+        const Range range = *builder_.properties(count).range;
         std::vector<ir::NodeId> cases;
         for (double value = range.lower; value <= range.upper; ++value) {
             std::map<ir::NodeId, ir::NodeId> known = {{count, integer(value)}};
@@ -137,7 +137,7 @@ class CountTabulation {
     std::vector<ir::VariableId> variables_of(const std::vector<ir::NodeId>& cases) const {
         std::set<ir::VariableId> variables;
         for (ir::NodeId id : cases) {
-            const auto& free = builder_.facts(id).free_variables;
+            const auto& free = builder_.properties(id).free_variables;
             variables.insert(free.begin(), free.end());
         }
         return {variables.begin(), variables.end()};
@@ -149,7 +149,7 @@ class CountTabulation {
         const auto objects = static_cast<std::size_t>(objects_of(variables));
         std::vector<ir::Value> values(objects * cases.size());
         for (std::size_t k = 0; k < cases.size(); ++k) {
-            if (!builder_.facts(cases[k]).uniform) return std::nullopt;
+            if (!builder_.properties(cases[k]).uniform) return std::nullopt;
             const auto of_case = constant_values(evaluator_, program_, cases[k], variables);
             if (!of_case) return std::nullopt;
             for (std::size_t object = 0; object < objects; ++object)
@@ -165,7 +165,7 @@ class CountTabulation {
         const auto greatest =
             constant_values(evaluator_, program_, greatest_for(count, variables), variables);
         if (!greatest) return reached;
-        const auto least = static_cast<std::int64_t>(builder_.facts(count).range->lower);
+        const auto least = static_cast<std::int64_t>(builder_.properties(count).range->lower);
         for (std::size_t object = 0; object < reached.size(); ++object) {
             const std::int64_t last = std::get<std::int64_t>((*greatest)[object]) - least;
             reached[object] = static_cast<std::size_t>(
@@ -177,11 +177,12 @@ class CountTabulation {
     // An upper bound of a count, from constants and these variables.
     ir::NodeId greatest_for(ir::NodeId count, const std::vector<ir::VariableId>& variables) {
         const auto is_known = [&](ir::NodeId id) {
-            const ir::Facts& facts = builder_.facts(id);
-            return facts.uniform && std::ranges::includes(variables, facts.free_variables);
+            const ir::Properties& properties = builder_.properties(id);
+            return properties.uniform &&
+                   std::ranges::includes(variables, properties.free_variables);
         };
         if (is_known(count)) return count;
-        const Range range = *builder_.facts(count).range;
+        const Range range = *builder_.properties(count).range;
         const auto form = program_[count].form;
         if (const auto* apply = std::get_if<ir::Apply>(&form)) {
             const ir::NodeId a = apply->operands.front(), b = apply->operands.back();
@@ -195,7 +196,7 @@ class CountTabulation {
         if (sum && sum->op == Reduction::Sum && sum->bounds) {
             const auto length =
                 builder_.apply(Operator::Subtract, {sum->bounds->end, sum->bounds->begin});
-            const double term = std::max(0.0, builder_.facts(sum->body).range->upper);
+            const double term = std::max(0.0, builder_.properties(sum->body).range->upper);
             if (is_known(length))
                 return builder_.apply(Operator::Multiply, {integer(term), length});
         }
@@ -308,7 +309,7 @@ class CountTabulation {
         return load ? program_[load->buffer].name : "count";
     }
 
-    ir::NodeId least(ir::NodeId count) { return integer(builder_.facts(count).range->lower); }
+    ir::NodeId least(ir::NodeId count) { return integer(builder_.properties(count).range->lower); }
     ir::NodeId integer(double value) { return builder_.constant(static_cast<std::int64_t>(value)); }
 
     ir::Program program_;

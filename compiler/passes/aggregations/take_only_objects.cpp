@@ -81,7 +81,7 @@ class Indexing {
     ir::NodeId taken(const Nest& nest, ir::VariableId variable, const Condition& condition,
                      const OnlyObject& object, const ir::Value& neutral) {
         // What may fault is evaluated in any case: then the condition is tested in its place.
-        const bool in_place = builder_.facts(nest.body).may_fault;
+        const bool in_place = builder_.properties(nest.body).may_fault;
         const ir::NodeId exists = in_place ? object.exists : builder_.constant(true);
         std::map<ir::NodeId, ir::NodeId> known;
         known[condition.id] = condition.needed ? exists : builder_.apply(Operator::Not, {exists});
@@ -121,7 +121,7 @@ class Indexing {
     }
 
     bool depends_on(ir::NodeId id, ir::VariableId variable) const {
-        return std::ranges::binary_search(builder_.facts(id).free_variables, variable);
+        return std::ranges::binary_search(builder_.properties(id).free_variables, variable);
     }
 
     ir::Program program_;

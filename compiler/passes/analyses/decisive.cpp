@@ -47,7 +47,7 @@ class Search {
         if (std::holds_alternative<bool>(value) || number(value) != 0) return {};
         if (op == Operator::Multiply) return of_product(a, b, value);
         if (op == Operator::Divide)
-            return excludes_zero(builder_.facts(b).range) ? of(a, value) : Conditions();
+            return excludes_zero(builder_.properties(b).range) ? of(a, value) : Conditions();
         if (op == Operator::Negate) return of(a, value);
         if (is_one_of(op, {Operator::Add, Operator::Subtract}))
             return common(of(a, value), of(b, value));
@@ -56,7 +56,8 @@ class Search {
 
     // 0 * x is 0 where x is finite.
     Conditions of_product(ir::NodeId a, ir::NodeId b, const ir::Value& zero) const {
-        const bool finite_a = builder_.facts(a).finite, finite_b = builder_.facts(b).finite;
+        const bool finite_a = builder_.properties(a).finite,
+                   finite_b = builder_.properties(b).finite;
         return all(finite_b ? of(a, zero) : Conditions(), finite_a ? of(b, zero) : Conditions());
     }
 

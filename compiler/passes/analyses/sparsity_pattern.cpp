@@ -9,8 +9,8 @@
 namespace rddlc::passes {
 namespace {
 
-// In operations (Facts::cost), of evaluating one expression for many assignments, and of all that
-// is evaluated: a second or two.
+// In operations (Properties::cost), of evaluating one expression for many assignments, and of all
+// that is evaluated: a second or two.
 constexpr double affordable_for_relation = 4e6;
 constexpr double affordable_for_relations = 1e8;
 // Tables in which most elements are exceptions are looked through up to this size.
@@ -54,7 +54,7 @@ SparsityPattern::SparsityPattern(const ir::Builder& builder, const ir::Evaluator
 std::optional<Relation> SparsityPattern::of(ir::NodeId id, const ir::Value& value) {
     const ir::Node& node = program()[id];
     const auto all = volume(axes_of(id));
-    if (facts(id).uniform && all && affords(id, static_cast<double>(*all))) {
+    if (properties(id).uniform && all && affords(id, static_cast<double>(*all))) {
         return by_trying_all(id, value);
     }
     Found found = match(
@@ -65,7 +65,7 @@ std::optional<Relation> SparsityPattern::of(ir::NodeId id, const ir::Value& valu
         [&](const ir::Reduce& form) { return of(form, value); },
         [&](const ir::Sample& form) { return of(form, value); },
         [](const auto&) { return Found(); });
-    if (!found && facts(id).uniform) found = of_common_elements(id, value);
+    if (!found && properties(id).uniform) found = of_common_elements(id, value);
     if (found && !is_sparse(*found)) found.reset();
     return found;
 }
@@ -103,10 +103,10 @@ std::optional<Relation> SparsityPattern::of_term(ir::NodeId id, std::vector<ir::
 
 // By the zeros of `a`, if `b` is not known to be finite.
 std::optional<Relation> SparsityPattern::of_doubtful_product(ir::NodeId a, ir::NodeId b,
-                                                        std::vector<ir::NodeId>& doubtful) {
-    if (facts(b).may_fault) return std::nullopt;
+                                                             std::vector<ir::NodeId>& doubtful) {
+    if (properties(b).may_fault) return std::nullopt;
     const Found found = of_term(a, doubtful);
-    if (found && !facts(b).finite) add_new(doubtful, {b});
+    if (found && !properties(b).finite) add_new(doubtful, {b});
     return found;
 }
 
@@ -138,8 +138,8 @@ Relation SparsityPattern::narrowed(Relation relation, ir::NodeId id, const ir::V
     const auto is_known = [&](ir::VariableId variable) {
         return relation.has(variable);
     };
-    const bool possible = facts(id).uniform &&
-                          std::ranges::all_of(facts(id).free_variables, is_known) &&
+    const bool possible = properties(id).uniform &&
+                          std::ranges::all_of(properties(id).free_variables, is_known) &&
                           affords(id, static_cast<double>(relation.count()));
     if (!possible) return relation;
     std::erase_if(relation.tuples, [&](std::int64_t tuple) {
@@ -151,12 +151,12 @@ Relation SparsityPattern::narrowed(Relation relation, ir::NodeId id, const ir::V
 
 bool SparsityPattern::depend(std::span<const ir::NodeId> nodes, ir::VariableId variable) const {
     return std::ranges::any_of(nodes, [&](ir::NodeId id) {
-        return std::ranges::binary_search(facts(id).free_variables, variable);
+        return std::ranges::binary_search(properties(id).free_variables, variable);
     });
 }
 
 bool SparsityPattern::affords(ir::NodeId id, double times) {
-    const double cost = std::max(facts(id).cost, 1.0) * times;
+    const double cost = std::max(properties(id).cost, 1.0) * times;
     if (cost > affordable_for_relation || cost > left_) return false;
     left_ -= cost;
     return true;
@@ -164,7 +164,7 @@ bool SparsityPattern::affords(ir::NodeId id, double times) {
 
 std::vector<Axis> SparsityPattern::axes_of(ir::NodeId id) const {
     std::vector<Axis> axes;
-    for (ir::VariableId variable : facts(id).free_variables) {
+    for (ir::VariableId variable : properties(id).free_variables) {
         axes.push_back({variable, program()[variable].size});
     }
     return axes;
@@ -218,7 +218,7 @@ std::optional<Relation> SparsityPattern::of_common_elements(ir::NodeId id, const
 // objects are used otherwise than to choose elements.
 std::optional<Relation> SparsityPattern::entries_of_tables(ir::NodeId id) {
     const ir::Node& node = program()[id];
-    if (facts(id).free_variables.empty()) return Relation{};
+    if (properties(id).free_variables.empty()) return Relation{};
     if (std::holds_alternative<ir::Index>(node.form)) return std::nullopt;
     if (const auto* load = std::get_if<ir::Load>(&node.form)) {
         return of(*load, program()[load->buffer].values.common());
@@ -265,8 +265,9 @@ std::optional<Relation> SparsityPattern::of_equality(ir::NodeId a, ir::NodeId b)
         index = std::get_if<ir::Index>(&program()[b].form);
         std::swap(a, b);
     }
-    if (!index || !facts(b).uniform) return std::nullopt;
-    if (std::ranges::binary_search(facts(b).free_variables, index->variable)) return std::nullopt;
+    if (!index || !properties(b).uniform) return std::nullopt;
+    if (std::ranges::binary_search(properties(b).free_variables, index->variable))
+        return std::nullopt;
     std::vector<Axis> axes = axes_of(b);
     const auto all = volume(axes);
     if (!all || !affords(b, static_cast<double>(*all))) return std::nullopt;
@@ -289,7 +290,7 @@ std::optional<Relation> SparsityPattern::of_equality(ir::NodeId a, ir::NodeId b)
 std::optional<Relation> SparsityPattern::of_product(ir::NodeId a, ir::NodeId b,
                                                     const ir::Value& zero) {
     const auto is_harmless = [&](ir::NodeId id) {
-        return facts(id).finite && !facts(id).may_fault;
+        return properties(id).finite && !properties(id).may_fault;
     };
     if (is_harmless(a) && is_harmless(b)) return both(a, zero, b, zero);
     if (is_harmless(b)) return of(a, zero);
@@ -298,7 +299,7 @@ std::optional<Relation> SparsityPattern::of_product(ir::NodeId a, ir::NodeId b,
 }
 
 std::optional<Relation> SparsityPattern::of(const ir::Select& select, const ir::Value& value) {
-    if (facts(select.condition).may_fault) return std::nullopt;
+    if (properties(select.condition).may_fault) return std::nullopt;
     if (is_zero(value) && ir::is_guarded_product(program(), select))
         return of(select.else_value, value);
     const Found first = both(select.condition, false, select.then_value, value);
@@ -358,7 +359,7 @@ std::optional<Relation> SparsityPattern::either(ir::NodeId a, ir::NodeId b,
 // evaluated only where `a` is an exception.
 std::optional<Relation> SparsityPattern::both(ir::NodeId a, const ir::Value& value_of_a,
                                               ir::NodeId b, const ir::Value& value_of_b) {
-    if (facts(a).may_fault) return of(a, value_of_a);
+    if (properties(a).may_fault) return of(a, value_of_a);
     const Found first = of(a, value_of_a);
     const Found second = of(b, value_of_b);
     if (first && second) return join(*first, *second);

@@ -65,11 +65,11 @@ class SparsityPattern {
     // Whether an expression may be evaluated so often: for it, and for all of the program.
     bool affords(ir::NodeId id, double times);
     const ir::Program& program() const { return builder_.program(); }
-    const ir::Facts& facts(ir::NodeId id) const { return builder_.facts(id); }
+    const ir::Properties& properties(ir::NodeId id) const { return builder_.properties(id); }
 
     const ir::Builder& builder_;
     const ir::Evaluator& evaluator_;
-    double left_;  // in operations (Facts::cost), that may be spent on evaluating expressions
+    double left_;  // in operations (Properties::cost), that may be spent on evaluating expressions
 };
 
 }  // namespace rddlc::passes

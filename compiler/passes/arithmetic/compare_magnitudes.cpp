@@ -55,7 +55,7 @@ class Joining {
         const bool are_opposite = first && second && first->value == second->value &&
                                   first->op == mirrored(second->op) &&
                                   first->limit == -second->limit;
-        if (!are_opposite || !ir::is_droppable(builder_.facts(a))) return std::nullopt;
+        if (!are_opposite || !ir::is_droppable(builder_.properties(a))) return std::nullopt;
         const Bound& upper = is_upper(op_, first->op) ? *first : *second;
         if (!is_upper(op_, upper.op) || upper.limit < 0) return std::nullopt;
         const ir::NodeId absolute = builder_.apply(Operator::Abs, {upper.value});

@@ -8,7 +8,7 @@
 namespace rddlc::passes {
 namespace {
 
-// In operations (Facts::cost): what costs more is not written down twice.
+// In operations (Properties::cost): what costs more is not written down twice.
 constexpr double cheap_to_write_twice = 6;
 
 class Relaxing {
@@ -94,9 +94,9 @@ class Relaxing {
 
     // Where only loop variables change the divisor, tabulate_constants makes its inverses a table.
     std::optional<ir::NodeId> product_with_inverse(ir::NodeId a, ir::NodeId b) {
-        const ir::Facts& divisor = builder_.facts(b);
+        const ir::Properties& divisor = builder_.properties(b);
         const bool is_table = divisor.uniform && !divisor.free_variables.empty();
-        if (!is_table || !ir::is_droppable(divisor) || builder_.facts(a).uniform)
+        if (!is_table || !ir::is_droppable(divisor) || builder_.properties(a).uniform)
             return std::nullopt;
         const auto [factor, rest] = without_constant_factor(a);
         return multiply(rest, builder_.apply(Operator::Divide, {builder_.constant(factor), b}));
@@ -112,7 +112,7 @@ class Relaxing {
     // constant, or so are those of both of its terms. Sought in `depth` operations inside each
     // other.
     std::optional<ir::NodeId> scaled(ir::NodeId x, double factor, int depth = 5) {
-        if (factor == 0 && ir::is_droppable(builder_.facts(x))) return builder_.constant(0.0);
+        if (factor == 0 && ir::is_droppable(builder_.properties(x))) return builder_.constant(0.0);
         if (const auto value = constant(x)) return builder_.constant(*value * factor);
         const auto* apply = std::get_if<ir::Apply>(&builder_.program()[x].form);
         if (!apply || depth == 0) return std::nullopt;
@@ -156,14 +156,14 @@ class Relaxing {
         const bool is_first = apply->operands[0] == factor;
         const ir::NodeId other = apply->operands[is_first ? 1 : 0];
         if (!is_test || (!is_first && apply->operands[1] != factor)) return std::nullopt;
-        if (!ir::is_droppable(builder_.facts(other))) return std::nullopt;
+        if (!ir::is_droppable(builder_.properties(other))) return std::nullopt;
         return select.else_value;
     }
 
     std::optional<ir::NodeId> power(ir::NodeId base, ir::NodeId exponent) {
         const auto value = constant(exponent);
         if (value && *value == 0.5) return builder_.apply(Operator::Sqrt, {base});
-        if (!value || *value != 3 || builder_.facts(base).cost > cheap_to_write_twice)
+        if (!value || *value != 3 || builder_.properties(base).cost > cheap_to_write_twice)
             return std::nullopt;
         return multiply(multiply(base, base), base);
     }

@@ -12,24 +12,24 @@
 namespace rddlc::passes {
 namespace {
 
-// In operations (Facts::cost), for all values of a divisor.
+// In operations (Properties::cost), for all values of a divisor.
 constexpr double affordable_for_divisor = 4e6;
 constexpr double affordable_for_divisors = 1e8;
 
-double evaluations(const ir::Program& program, const ir::Facts& facts) {
+double evaluations(const ir::Program& program, const ir::Properties& properties) {
     double count = 1;
-    for (const ir::VariableId variable : facts.free_variables)
+    for (const ir::VariableId variable : properties.free_variables)
         count *= static_cast<double>(program[variable].size);
     return count;
 }
 
-// The facts of nodes, in the order in which the step computes the tables that they read.
+// The properties of nodes, in the order in which the step computes the tables that they read.
 class Ranges {
   public:
     explicit Ranges(ir::Program& program)
         : program_(program),
           evaluator_(program),
-          facts_(program.nodes.size()),
+          properties_(program.nodes.size()),
           is_known_(program.nodes.size(), false) {}
 
     // The tables that the definition fills get the ranges of what is stored.
@@ -37,7 +37,7 @@ class Ranges {
         for (const ir::NodeId root : ir::roots_of(definition.body)) find_below(root);
         std::map<ir::BufferId, std::optional<Range>> stored;
         ir::for_each_statement<ir::Store>(definition.body, [&](const ir::Store& store) {
-            const auto& range = facts_[store.value.index].range;
+            const auto& range = properties_[store.value.index].range;
             const auto [entry, is_first] = stored.try_emplace(store.target, range);
             if (!is_first) entry->second = joined(entry->second, range);
         });
@@ -73,27 +73,30 @@ class Ranges {
     }
 
     void find(ir::NodeId id) {
-        ir::Facts& facts = facts_[id.index] = ir::facts_of(program_, program_[id], facts_, tables_);
+        ir::Properties& properties = properties_[id.index] =
+            ir::properties_of(program_, program_[id], properties_, tables_);
         const auto* apply = std::get_if<ir::Apply>(&program_[id].form);
-        if (apply && apply->op == Operator::Divide && !facts.range)
-            facts.range = range_by_values(apply->operands.front(), apply->operands.back());
+        if (apply && apply->op == Operator::Divide && !properties.range)
+            properties.range = range_by_values(apply->operands.front(), apply->operands.back());
         is_known_[id.index] = true;
     }
 
     // A quotient by what only the instance decides: by all values of the divisor.
     std::optional<Range> range_by_values(ir::NodeId dividend, ir::NodeId divisor) {
-        const ir::Facts& facts = facts_[divisor.index];
-        const double cost = facts.cost * evaluations(program_, facts);
-        if (!facts.uniform || cost > affordable_for_divisor || cost > left_) return std::nullopt;
+        const ir::Properties& properties = properties_[divisor.index];
+        const double cost = properties.cost * evaluations(program_, properties);
+        if (!properties.uniform || cost > affordable_for_divisor || cost > left_)
+            return std::nullopt;
         left_ -= cost;
-        const auto values = constant_values(evaluator_, program_, divisor, facts.free_variables);
+        const auto values =
+            constant_values(evaluator_, program_, divisor, properties.free_variables);
         if (!values || values->empty()) return std::nullopt;
         const auto quotient = [&](const ir::Value& value) {
             const double number = std::get<double>(value);
             const std::optional<Range> by{Range{number, number}};
-            return std::isnan(number)
-                       ? std::nullopt
-                       : range_of(Operator::Divide, std::array{facts_[dividend.index].range, by});
+            return std::isnan(number) ? std::nullopt
+                                      : range_of(Operator::Divide,
+                                                 std::array{properties_[dividend.index].range, by});
         };
         auto range = quotient(values->front());
         for (const ir::Value& value : *values) range = joined(range, quotient(value));
@@ -102,9 +105,9 @@ class Ranges {
 
     ir::Program& program_;
     ir::Evaluator evaluator_;
-    std::vector<ir::Facts> facts_;  // by NodeId
-    std::vector<bool> is_known_;    // by NodeId
-    ir::TableFacts tables_;
+    std::vector<ir::Properties> properties_;  // by NodeId
+    std::vector<bool> is_known_;              // by NodeId
+    ir::TableProperties tables_;
     double left_ = affordable_for_divisors;
     std::int64_t newly_finite_ = 0;
 };

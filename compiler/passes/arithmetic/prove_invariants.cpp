@@ -51,12 +51,12 @@ class Proof {
     // What an element of the state, or a constant, is after a step. Which element it is must not
     // depend on the state, since that is another one after the step.
     std::optional<ir::NodeId> in_next_state(ir::NodeId id) {
-        if (builder_.facts(id).uniform) return id;
+        if (builder_.properties(id).uniform) return id;
         const auto form = program_[id].form;
         const auto* load = std::get_if<ir::Load>(&form);
         if (!load || program_[load->buffer].storage != ir::Storage::State) return std::nullopt;
         const auto is_fixed = [&](ir::NodeId index) {
-            return builder_.facts(index).uniform;
+            return builder_.properties(index).uniform;
         };
         if (!std::ranges::all_of(load->indices, is_fixed)) return std::nullopt;
         const ir::Definition* definition = definition_of_next(load->buffer);
@@ -89,7 +89,7 @@ class Proof {
         std::map<ir::NodeId, ir::NodeId> known;
         for (std::size_t k = 0; k < indices.size(); ++k) {
             if (store->indices[k] != builder_.index(variables[k])) return std::nullopt;
-            if (std::ranges::any_of(builder_.facts(indices[k]).free_variables, is_bound_there))
+            if (std::ranges::any_of(builder_.properties(indices[k]).free_variables, is_bound_there))
                 return std::nullopt;
             known[store->indices[k]] = indices[k];
         }
@@ -114,7 +114,8 @@ class Proof {
         return false;
     }
     bool is_within_range(ir::NodeId value, Side side, ir::NodeId limit) const {
-        const auto &range = builder_.facts(value).range, &limits = builder_.facts(limit).range;
+        const auto &range = builder_.properties(value).range,
+                   &limits = builder_.properties(limit).range;
         if (!range || !limits) return false;
         return side == Side::AtMost ? range->upper <= limits->lower : range->lower >= limits->upper;
     }

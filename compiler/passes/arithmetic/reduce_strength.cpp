@@ -9,7 +9,7 @@
 namespace rddlc::passes {
 namespace {
 
-// In operations (Facts::cost): what costs more is not written down twice.
+// In operations (Properties::cost): what costs more is not written down twice.
 constexpr double cheap_operand = 6;
 constexpr std::int64_t largest_int_exponent = 4;
 
@@ -39,7 +39,7 @@ ir::NodeId product(ir::Builder& builder, ir::NodeId base, std::int64_t count) {
 
 std::optional<ir::NodeId> reduced_power(ir::Builder& builder, ir::NodeId base,
                                         ir::NodeId exponent) {
-    if (builder.facts(base).cost > cheap_operand) return std::nullopt;
+    if (builder.properties(base).cost > cheap_operand) return std::nullopt;
     const auto real = ir::constant<double>(builder.program(), exponent);
     if (real && *real == 2) return product(builder, base, 2);
     const auto whole = ir::constant<std::int64_t>(builder.program(), exponent);
@@ -61,7 +61,7 @@ std::optional<ir::NodeId> reduced(ir::Builder& builder, const ir::Apply& apply) 
     const bool vanishes = (is_zero(program, a) && is_from_bool(program, b)) ||
                           (is_zero(program, b) && is_from_bool(program, a));
     const ir::NodeId other = is_zero(program, a) ? b : a;
-    if (!vanishes || !ir::is_droppable(builder.facts(other))) return std::nullopt;
+    if (!vanishes || !ir::is_droppable(builder.properties(other))) return std::nullopt;
     return builder.constant(0.0);
 }
 

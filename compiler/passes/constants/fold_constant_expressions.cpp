@@ -11,22 +11,22 @@ namespace {
 // More operations than this are left to the simulator.
 constexpr double affordable_to_fold = 1e7;
 
-bool is_known(const ir::Node& node, const ir::Facts& facts) {
-    return facts.cost <= affordable_to_fold && facts.uniform && facts.free_variables.empty() &&
-           !std::holds_alternative<ir::Constant>(node.form);
+bool is_known(const ir::Node& node, const ir::Properties& properties) {
+    return properties.cost <= affordable_to_fold && properties.uniform &&
+           properties.free_variables.empty() && !std::holds_alternative<ir::Constant>(node.form);
 }
 
 // By NodeId::index. Only the outermost known expressions matter: what is inside goes with them.
 std::vector<std::optional<ir::Value>> known_values(const ir::Program& program) {
     std::vector<std::optional<ir::Value>> values(program.nodes.size());
-    const std::vector<ir::Facts> facts = ir::all_facts(program);
+    const std::vector<ir::Properties> properties = ir::all_properties(program);
     const ir::Evaluator evaluator(program);
     std::vector<bool> wanted(program.nodes.size());
     for (ir::NodeId root : ir::roots_of(program)) wanted[root.index] = true;
     for (std::uint32_t index = static_cast<std::uint32_t>(program.nodes.size()); index-- > 0;) {
         if (!wanted[index]) continue;
         const ir::Node& node = program.nodes[index];
-        if (is_known(node, facts[index])) {
+        if (is_known(node, properties[index])) {
             const auto value = constant_values(evaluator, program, ir::NodeId{index}, {});
             if (value) values[index] = value->front();
         }

@@ -26,7 +26,7 @@ ir::Program fold_uniform_tables(ir::Program program, Report& report) {
             const auto* load = std::get_if<ir::Load>(&node.form);
             if (!load || !is_uniform[load->buffer.index]) return std::nullopt;
             const auto droppable = [&](ir::NodeId index) {
-                return ir::is_droppable(builder.facts(index));
+                return ir::is_droppable(builder.properties(index));
             };
             if (!std::ranges::all_of(load->indices, droppable)) return std::nullopt;
             replaced.insert(load->buffer);

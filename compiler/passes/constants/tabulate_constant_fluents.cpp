@@ -13,7 +13,7 @@ namespace {
 
 // Larger tables are left to the simulator: they make the emitted text long.
 constexpr std::int64_t most_entries_of_fluent = 100'000;
-// In operations (Facts::cost).
+// In operations (Properties::cost).
 constexpr double affordable_for_fluent = 1e7;
 constexpr double affordable_for_fluents = 1e8;
 
@@ -41,9 +41,10 @@ class FluentTabulation {
         const auto plain = plain_definition(program_, definition);
         if (!plain) return std::nullopt;
         const ir::NodeId value = with_tables(plain->value);
-        const ir::Facts& facts = builder_.facts(value);
-        const double cost = facts.cost * static_cast<double>(buffer.count());
-        if (!facts.uniform || cost > affordable_for_fluent || cost > left_) return std::nullopt;
+        const ir::Properties& properties = builder_.properties(value);
+        const double cost = properties.cost * static_cast<double>(buffer.count());
+        if (!properties.uniform || cost > affordable_for_fluent || cost > left_)
+            return std::nullopt;
         left_ -= cost;
 
         std::vector<ir::VariableId> variables;

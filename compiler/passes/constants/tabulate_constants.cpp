@@ -14,7 +14,7 @@ namespace {
 
 // An entry of a larger table must save as many operations as it has fellows, divided by this.
 constexpr double entries_for_an_operation = 32;
-// In operations (Facts::cost), for the whole table.
+// In operations (Properties::cost), for the whole table.
 constexpr double affordable_for_table = 4e6;
 
 // Finds the outermost expressions that are worth a table.
@@ -22,7 +22,7 @@ class ConstantTabulation {
   public:
     explicit ConstantTabulation(ir::Program& program)
         : program_(program),
-          facts_(ir::all_facts(program)),
+          properties_(ir::all_properties(program)),
           seen_(program.nodes.size()),
           evaluator_(std::as_const(program)) {}
 
@@ -60,14 +60,15 @@ class ConstantTabulation {
     }
 
     bool is_worth_it(ir::NodeId id) const {
-        const ir::Facts& facts = facts_[id.index];
-        if (!facts.uniform || facts.free_variables.empty() || facts.cost < 2) return false;
+        const ir::Properties& properties = properties_[id.index];
+        if (!properties.uniform || properties.free_variables.empty() || properties.cost < 2)
+            return false;
         if (is_element(id)) return false;
-        const double entries = entries_over(facts.free_variables);
-        if (entries * facts.cost > affordable_for_table) return false;
+        const double entries = entries_over(properties.free_variables);
+        if (entries * properties.cost > affordable_for_table) return false;
         const std::int64_t largest = largest_table_in(id);
         return largest > 0 && entries <= std::max(static_cast<double>(largest),
-                                                  (facts.cost - 2) * entries_for_an_operation);
+                                                  (properties.cost - 2) * entries_for_an_operation);
     }
 
     // Of a table already: the indices are no more than arithmetic.
@@ -121,7 +122,7 @@ class ConstantTabulation {
     }
 
     ir::Program& program_;
-    std::vector<ir::Facts> facts_;
+    std::vector<ir::Properties> properties_;
     std::vector<bool> seen_;
     ir::Evaluator evaluator_;
     std::map<ir::NodeId, Table> tables_;

@@ -2,7 +2,7 @@
 
 #include "ir/analysis.hpp"
 #include "ir/nest.hpp"
-#include "passes/analyses/several_objects.hpp"
+#include "passes/analyses/object_lanes.hpp"
 #include "support/match.hpp"
 
 #include <algorithm>
@@ -10,14 +10,14 @@
 namespace rddlc::passes {
 namespace {
 
-// In operations (Facts::cost): C++ compilers put cheaper loops over reals into registers
+// In operations (Properties::cost): C++ compilers put cheaper loops over reals into registers
 // themselves.
 constexpr double least_cost_of_reals = 4;
 
 class Marking {
   public:
     explicit Marking(const ir::Program& program)
-        : program_(program), facts_(ir::all_facts(program)) {}
+        : program_(program), properties_(ir::all_properties(program)) {}
 
     std::int64_t mark(ir::Block& block) const {
         std::int64_t marked = 0;
@@ -41,18 +41,20 @@ class Marking {
             const auto* store = std::get_if<ir::Store>(&statement.form);
             if (!store) continue;
             const ir::Scalar scalar = program_[store->target].scalar;
-            if (scalar == ir::Scalar::Int && !facts_[store->value.index].random) return false;
+            if (scalar == ir::Scalar::Int && !properties_[store->value.index].random) return false;
             cost += cost_of(store->value);
-            draws_or_is_bool &= scalar == ir::Scalar::Bool || facts_[store->value.index].random;
+            draws_or_is_bool &=
+                scalar == ir::Scalar::Bool || properties_[store->value.index].random;
         }
         return draws_or_is_bool || cost >= least_cost_of_reals;
     }
-    double cost_of(ir::NodeId id) const { return facts_[id.index].cost; }
+    double cost_of(ir::NodeId id) const { return properties_[id.index].cost; }
 
     bool is_possible(const ir::Loop& loop) const {
         const ir::Nest nest = ir::nest_of(loop);
-        const SeveralObjects several(
-            program_, [&](ir::NodeId id) -> const ir::Facts& { return facts_[id.index]; }, nest);
+        const ObjectLanes several(
+            program_, [&](ir::NodeId id) -> const ir::Properties& { return properties_[id.index]; },
+            nest);
         return several.are_enough() &&
                std::ranges::all_of(*nest.body, [&](const ir::Statement& statement) {
                    return match(
@@ -64,7 +66,7 @@ class Marking {
     }
 
     const ir::Program& program_;
-    std::vector<ir::Facts> facts_;
+    std::vector<ir::Properties> properties_;
 };
 
 }  // namespace

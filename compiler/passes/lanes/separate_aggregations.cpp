@@ -2,7 +2,7 @@
 
 #include "ir/nest.hpp"
 #include "ir/rewrite.hpp"
-#include "passes/analyses/several_objects.hpp"
+#include "passes/analyses/object_lanes.hpp"
 
 #include <algorithm>
 #include <map>
@@ -13,7 +13,7 @@
 namespace rddlc::passes {
 namespace {
 
-// In operations (Facts::cost): what is worth writing a value to a table and reading it again.
+// In operations (Properties::cost): what is worth writing a value to a table and reading it again.
 constexpr double worth_separating = 10;
 
 using Variables = std::vector<ir::VariableId>;
@@ -59,9 +59,9 @@ class Separation {
         const auto is_one = [&](ir::NodeId id) {
             return std::ranges::find(aggregations, id) != aggregations.end();
         };
-        const SeveralObjects several = several_of(nest, is_one);
-        double rest = builder_.facts(store->value).cost;
-        for (const ir::NodeId id : aggregations) rest -= builder_.facts(id).cost;
+        const ObjectLanes several = several_of(nest, is_one);
+        double rest = builder_.properties(store->value).cost;
+        for (const ir::NodeId id : aggregations) rest -= builder_.properties(id).cost;
         if (rest < worth_separating || !several.are_enough() || !several.can_store(*store)) return;
 
         std::map<ir::NodeId, ir::NodeId> elements;
@@ -77,9 +77,9 @@ class Separation {
                            std::vector<ir::NodeId>& found) const {
         const ir::Node& node = program_[id];
         if (std::holds_alternative<ir::Reduce>(node.form)) {
-            const ir::Facts& facts = builder_.facts(id);
-            if (facts.may_fault || facts.random || node.type == ir::Scalar::Int ||
-                !is_over(facts, variables))
+            const ir::Properties& properties = builder_.properties(id);
+            if (properties.may_fault || properties.random || node.type == ir::Scalar::Int ||
+                !is_over(properties, variables))
                 return false;
             if (std::ranges::find(found, id) == found.end()) found.push_back(id);
             return true;
@@ -103,8 +103,8 @@ class Separation {
 
     // A table of these variables can hold it: nothing else around it, such as the draw of an object
     // (DiscreteOver), binds what it depends on.
-    static bool is_over(const ir::Facts& facts, const Variables& variables) {
-        return std::ranges::all_of(facts.free_variables, [&](ir::VariableId variable) {
+    static bool is_over(const ir::Properties& properties, const Variables& variables) {
+        return std::ranges::all_of(properties.free_variables, [&](ir::VariableId variable) {
             return std::ranges::find(variables, variable) != variables.end();
         });
     }
@@ -150,11 +150,11 @@ class Separation {
     }
 
     bool is_worth_a_table(const Variables& variables, ir::NodeId term) const {
-        const ir::Facts& facts = builder_.facts(term);
-        if (variables.empty() || facts.may_fault || facts.random || facts.cost < worth_separating ||
-            !is_over(facts, variables))
+        const ir::Properties& properties = builder_.properties(term);
+        if (variables.empty() || properties.may_fault || properties.random ||
+            properties.cost < worth_separating || !is_over(properties, variables))
             return false;
-        const SeveralObjects several = several_of({variables, nullptr}, nullptr);
+        const ObjectLanes several = several_of({variables, nullptr}, nullptr);
         return several.are_enough() && several.can_evaluate(term);
     }
 
@@ -164,7 +164,7 @@ class Separation {
     ir::NodeId table_of(ir::NodeId id, const std::string& what, const Variables& variables,
                         ir::Block& before) {
         const ir::BufferId table = builder_.tables().scratch(
-            name_ + "-" + what, program_[id].type, builder_.facts(id).range, variables, span_);
+            name_ + "-" + what, program_[id].type, builder_.properties(id).range, variables, span_);
         std::vector<ir::NodeId> indices;
         for (const ir::VariableId variable : variables) indices.push_back(builder_.index(variable));
         ir::Block fill;
@@ -173,9 +173,9 @@ class Separation {
         return builder_.load(table, indices);
     }
 
-    SeveralObjects several_of(const ir::Nest& nest,
-                              std::function<bool(ir::NodeId)> is_element) const {
-        return {program_, [&](ir::NodeId id) -> const ir::Facts& { return builder_.facts(id); },
+    ObjectLanes several_of(const ir::Nest& nest, std::function<bool(ir::NodeId)> is_element) const {
+        return {program_,
+                [&](ir::NodeId id) -> const ir::Properties& { return builder_.properties(id); },
                 nest, std::move(is_element)};
     }
 

@@ -13,7 +13,7 @@
 namespace rddlc::passes {
 namespace {
 
-// In operations (Facts::cost) of all iterations: what is not too much text.
+// In operations (Properties::cost) of all iterations: what is not too much text.
 constexpr double most_operations = 1000;
 // And in operations beside the sums of an iteration: more of them are worth a loop, which may run
 // over several objects at once.
@@ -53,12 +53,12 @@ class Unrolling {
         const ir::Nest nest = ir::nest_of(loop);
         const auto* store = ir::only_statement<ir::Store>(*nest.body);
         if (!store) return nullptr;
-        double cost = builder_.facts(store->value).cost;
+        double cost = builder_.properties(store->value).cost;
         for (ir::VariableId variable : nest.variables)
             cost *= static_cast<double>(program_[variable].size);
         const double sums = cost_of_sums(store->value);
         const bool is_worth_it = sums > 0 && cost <= most_operations &&
-                                 builder_.facts(store->value).cost - sums <= most_beside_sums;
+                                 builder_.properties(store->value).cost - sums <= most_beside_sums;
         // Last, as it walks through the whole expression, which is small then.
         return is_worth_it && !has_place(store->value) ? store : nullptr;
     }
@@ -73,7 +73,7 @@ class Unrolling {
     // Of the sums over rows that are evaluated in any case.
     double cost_of_sums(ir::NodeId id) const {
         const ir::Node& node = program_[id];
-        if (is_sum_over_row(node)) return builder_.facts(id).cost;
+        if (is_sum_over_row(node)) return builder_.properties(id).cost;
         if (ir::bound_variable(node) || std::holds_alternative<ir::Select>(node.form)) return 0;
         double cost = 0;
         for (ir::NodeId operand : ir::operands_of(node)) cost += cost_of_sums(operand);

@@ -25,7 +25,7 @@ class Pruning {
   public:
     explicit Pruning(ir::Program& program)
         : program_(program),
-          facts_(ir::all_facts(program)),
+          properties_(ir::all_properties(program)),
           is_needed_(program.buffers.size()),
           is_named_(program.local_count),
           reached_(program.nodes.size()) {
@@ -85,7 +85,7 @@ class Pruning {
             });
         const std::vector<ir::NodeId> roots = ir::roots_of(statement);
         const bool may_fault = std::ranges::any_of(
-            roots, [&](ir::NodeId root) { return facts_[root.index].may_fault; });
+            roots, [&](ir::NodeId root) { return properties_[root.index].may_fault; });
         if (!is_needed && !may_fault) return false;
         for (const ir::NodeId root : roots) reach(root);
         if (const auto* call = std::get_if<ir::Call>(&statement.form)) {
@@ -111,7 +111,7 @@ class Pruning {
     }
 
     ir::Program& program_;
-    std::vector<ir::Facts> facts_;
+    std::vector<ir::Properties> properties_;
     std::vector<bool> is_needed_;  // by BufferId::index
     std::vector<bool> is_named_;   // by LocalId::index: something needed reads the local value
     std::vector<bool> reached_;    // by NodeId::index

@@ -14,8 +14,8 @@
 namespace rddlc::passes {
 namespace {
 
-// In operations (Facts::cost): what is worth an element, what an element costs, and what may be
-// computed although no branch needs it.
+// In operations (Properties::cost): what is worth an element, what an element costs, and what may
+// be computed although no branch needs it.
 constexpr double worth_an_element = 15;
 constexpr double cost_of_shared_element = 2;
 constexpr double cheap_enough_to_try = 64;
@@ -135,27 +135,29 @@ class DefinitionSharing {
     }
 
     bool is_worthwhile(ir::NodeId id, const UsesByDefinition& uses) const {
-        const ir::Facts& facts = builder_.facts(id);
-        if (uses.size() < 2 || facts.may_fault || facts.uniform || facts.cost < worth_an_element)
+        const ir::Properties& properties = builder_.properties(id);
+        if (uses.size() < 2 || properties.may_fault || properties.uniform ||
+            properties.cost < worth_an_element)
             return false;
         double elements = 1, evaluations = 0;
-        for (ir::VariableId variable : facts.free_variables)
+        for (ir::VariableId variable : properties.free_variables)
             elements *= static_cast<double>(program_[variable].size);
         bool always = false;
         for (const auto& [user, use] : uses) {
             evaluations += use.times;
             always |= use.always;
         }
-        const double shared = elements * (facts.cost + cost_of_shared_element);
-        return (always || facts.cost <= cheap_enough_to_try) && elements <= most_shared_elements &&
-               shared + evaluations * cost_of_shared_element < evaluations * facts.cost;
+        const double shared = elements * (properties.cost + cost_of_shared_element);
+        return (always || properties.cost <= cheap_enough_to_try) &&
+               elements <= most_shared_elements &&
+               shared + evaluations * cost_of_shared_element < evaluations * properties.cost;
     }
 
     // The first user fills a table for it, and all read that.
     void share(ir::NodeId id, const UsesByDefinition& uses) {
         const std::size_t first_user = uses.begin()->first;
         double elements = 1;
-        for (const ir::VariableId variable : builder_.facts(id).free_variables)
+        for (const ir::VariableId variable : builder_.properties(id).free_variables)
             elements *= static_cast<double>(program_[variable].size);
         spread(id, first_user, {elements, true});
         const Span span = first_user < program_.step.size() ? program_.step[first_user].span
@@ -175,7 +177,8 @@ class DefinitionSharing {
         std::map<ir::NodeId, ir::NodeId> known;
         std::map<std::size_t, ir::Block> fills;
         for (const Shared& shared : shared_) {
-            const std::vector<ir::VariableId> variables = builder_.facts(shared.id).free_variables;
+            const std::vector<ir::VariableId> variables =
+                builder_.properties(shared.id).free_variables;
             std::vector<ir::NodeId> indices;
             for (ir::VariableId variable : variables) indices.push_back(builder_.index(variable));
             const ir::NodeId value = ir::replace_in(builder_, shared.id, known);
@@ -201,9 +204,9 @@ class DefinitionSharing {
     }
 
     ir::BufferId new_table(ir::NodeId id, Span span) {
-        const ir::Facts facts = builder_.facts(id);
-        return builder_.tables().scratch(name_for(id), program_[id].type, facts.range,
-                                         facts.free_variables, span);
+        const ir::Properties properties = builder_.properties(id);
+        return builder_.tables().scratch(name_for(id), program_[id].type, properties.range,
+                                         properties.free_variables, span);
     }
 
     // cos(state.angle): "cos-angle".

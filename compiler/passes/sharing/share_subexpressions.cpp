@@ -13,7 +13,7 @@
 namespace rddlc::passes {
 namespace {
 
-// In operations (Facts::cost).
+// In operations (Properties::cost).
 constexpr double worth_a_name = 6;
 
 // How a node below a statement is used.
@@ -118,8 +118,8 @@ class Sharing {
     bool is_lazy(const ir::Node& node, ir::NodeId operand) const {
         const auto* select = std::get_if<ir::Select>(&node.form);
         return select && operand != select->condition &&
-               ir::is_lazy(program_, *select, builder_.facts(select->then_value),
-                           builder_.facts(select->else_value));
+               ir::is_lazy(program_, *select, builder_.properties(select->then_value),
+                           builder_.properties(select->else_value));
     }
 
     static bool is_body(const ir::Node& node, ir::NodeId operand) {
@@ -157,7 +157,7 @@ class Sharing {
         for (const ir::NodeId id : fixed) {
             const Use& use = uses.at(id);
             if (!use.always || is_plain_index(id)) continue;
-            if (builder_.facts(id).cost < worth_a_name) continue;
+            if (builder_.properties(id).cost < worth_a_name) continue;
             const bool hoisted = use.repeated && exposed.contains(id);
             if (use.count > 1 || hoisted) chosen.push_back(id);
         }
@@ -180,7 +180,7 @@ class Sharing {
             if ((buffer && stored.contains(*buffer)) ||
                 std::ranges::any_of(ir::operands_of(node), reads)) {
                 reads_stored.insert(id);
-            } else if (std::ranges::all_of(builder_.facts(id).free_variables, is_bound)) {
+            } else if (std::ranges::all_of(builder_.properties(id).free_variables, is_bound)) {
                 fixed.insert(fixed.end(), id);
             }
         }
@@ -200,7 +200,7 @@ class Sharing {
 
     // An index made of loop indices and constants stays one: it is the same in all lanes.
     bool is_plain_index(ir::NodeId id) const {
-        return program_[id].type == ir::Scalar::Int && builder_.facts(id).uniform;
+        return program_[id].type == ir::Scalar::Int && builder_.properties(id).uniform;
     }
 
     ir::Program program_;

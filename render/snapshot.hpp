@@ -81,11 +81,11 @@ struct Step {
 // A longer episode remembers only its last states.
 inline constexpr std::size_t most_steps_remembered = 1000;
 
-class Moment {
+class Snapshot {
   public:
     // The last step is now. `horizon` is 0 if it is unknown. World and steps must outlive it.
-    Moment(const World& world, const std::deque<Step>& steps, std::int64_t episode,
-           std::int64_t horizon)
+    Snapshot(const World& world, const std::deque<Step>& steps, std::int64_t episode,
+             std::int64_t horizon)
         : world_(world), steps_(steps), episode_(episode), horizon_(horizon) {}
 
     const World& world() const { return world_; }

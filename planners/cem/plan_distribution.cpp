@@ -1,4 +1,4 @@
-#include "planners/cem/courses.hpp"
+#include "planners/cem/plan_distribution.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -169,22 +169,22 @@ void Distribution::prepare() {
     }
 }
 
-void Distribution::draw(Luck& luck, double correlation, Course& course) const {
+void Distribution::draw(RandomStream& stream, double correlation, Plan& plan) const {
     const auto old = static_cast<float>(correlation);
     const auto fresh = static_cast<float>(std::sqrt(1 - correlation * correlation));
     float* const latent = latent_.data();
     for (std::size_t t = 0; t < static_cast<std::size_t>(steps_); ++t) {
         for (float& noise : latent_)
-            noise = t == 0 ? luck.bell() : old * noise + fresh * luck.bell();
+            noise = t == 0 ? stream.bell() : old * noise + fresh * stream.bell();
         const std::size_t row = t * reals();
         for (std::size_t r = 0; r < reals(); ++r) {
             float number = means_[row + r] + deviations_[row + r] * latent[r];
             if (space_.reals[r].range == RealHead::Range::Bounded)
                 number = std::clamp(number, -1.0f, 1.0f);
-            course.numbers[row + r] = number;
+            plan.numbers[row + r] = number;
         }
         const float* const cumulative = cumulative_.data() + t * logits();
-        std::int32_t* const chosen = course.indices.data() + t * indices();
+        std::int32_t* const chosen = plan.indices.data() + t * indices();
         if (space_.picks > 0)
             draw_picks(latent + reals(), cumulative, chosen);
         else
@@ -215,11 +215,11 @@ void Distribution::draw_picks(const float* latent, const float* cumulative,
     std::fill(chosen + picked, chosen + space_.picks, 0);
 }
 
-void Distribution::middle(Course& course) const {
-    std::copy_n(means_.begin(), means_.size(), course.numbers.begin());
+void Distribution::middle(Plan& plan) const {
+    std::copy_n(means_.begin(), means_.size(), plan.numbers.begin());
     for (std::size_t t = 0; t < static_cast<std::size_t>(steps_); ++t) {
         const float* const row = probabilities_.data() + t * logits();
-        std::int32_t* const chosen = course.indices.data() + t * indices();
+        std::int32_t* const chosen = plan.indices.data() + t * indices();
         for (std::size_t h = 0; h < space_.categories.size(); ++h) {
             const float* const first = row + space_.categories[h].first_logit;
             chosen[h] = static_cast<std::int32_t>(
@@ -240,24 +240,24 @@ void Distribution::middle(Course& course) const {
     }
 }
 
-void Distribution::fit(std::span<const Course* const> courses, std::span<const double> weights,
+void Distribution::fit(std::span<const Plan* const> plans, std::span<const double> weights,
                        double memory, bool keeps_deviations) {
     for (std::int64_t t = 0; t < steps_; ++t) {
-        fit_reals(t, courses, weights, memory, keeps_deviations);
-        if (logits() > 0) fit_indices(t, courses, weights, memory);
+        fit_reals(t, plans, weights, memory, keeps_deviations);
+        if (logits() > 0) fit_indices(t, plans, weights, memory);
     }
 }
 
-void Distribution::fit_reals(std::int64_t step, std::span<const Course* const> courses,
+void Distribution::fit_reals(std::int64_t step, std::span<const Plan* const> plans,
                              std::span<const double> weights, double memory,
                              bool keeps_deviations) {
     const std::size_t row = static_cast<std::size_t>(step) * reals();
     for (std::size_t k = row; k < row + reals(); ++k) {
         double mean = 0, square = 0;
-        for (std::size_t c = 0; c < courses.size(); ++c)
-            mean += weights[c] * static_cast<double>(courses[c]->numbers[k]);
-        for (std::size_t c = 0; c < courses.size(); ++c) {
-            const double difference = static_cast<double>(courses[c]->numbers[k]) - mean;
+        for (std::size_t c = 0; c < plans.size(); ++c)
+            mean += weights[c] * static_cast<double>(plans[c]->numbers[k]);
+        for (std::size_t c = 0; c < plans.size(); ++c) {
+            const double difference = static_cast<double>(plans[c]->numbers[k]) - mean;
             square += weights[c] * difference * difference;
         }
         means_[k] =
@@ -269,12 +269,12 @@ void Distribution::fit_reals(std::int64_t step, std::span<const Course* const> c
     }
 }
 
-void Distribution::fit_indices(std::int64_t step, std::span<const Course* const> courses,
+void Distribution::fit_indices(std::int64_t step, std::span<const Plan* const> plans,
                                std::span<const double> weights, double memory) {
     const std::size_t row = static_cast<std::size_t>(step) * indices();
     std::ranges::fill(fitted_, 0.0f);
-    for (std::size_t c = 0; c < courses.size(); ++c) {
-        const std::int32_t* const chosen = courses[c]->indices.data() + row;
+    for (std::size_t c = 0; c < plans.size(); ++c) {
+        const std::int32_t* const chosen = plans[c]->indices.data() + row;
         const auto weight = static_cast<float>(weights[c]);
         for (std::size_t h = 0; h < space_.categories.size(); ++h)
             fitted_[static_cast<std::size_t>(space_.categories[h].first_logit + chosen[h])] +=

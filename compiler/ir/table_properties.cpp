@@ -1,4 +1,4 @@
-#include "ir/table_facts.hpp"
+#include "ir/table_properties.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -48,24 +48,24 @@ std::optional<Range> range_of(const Table& values) {
     return without_nan ? std::optional(range) : std::nullopt;
 }
 
-TableFacts::Facts& TableFacts::of(BufferId table) {
-    if (facts_.size() <= table.index) facts_.resize(table.index + 1);
-    return facts_[table.index];
+TableProperties::Properties& TableProperties::of(BufferId table) {
+    if (properties_.size() <= table.index) properties_.resize(table.index + 1);
+    return properties_[table.index];
 }
 
-std::optional<Range> TableFacts::range(const Program& program, BufferId table) {
+std::optional<Range> TableProperties::range(const Program& program, BufferId table) {
     return known(of(table).range, [&] { return range_of(program[table].values); });
 }
 
-double TableFacts::longest_row(const Program& program, BufferId table) {
+double TableProperties::longest_row(const Program& program, BufferId table) {
     return known(of(table).longest_row, [&] { return longest_row_of(program[table].values); });
 }
 
-double TableFacts::most_ones(const Program& program, BufferId table) {
+double TableProperties::most_ones(const Program& program, BufferId table) {
     return known(of(table).most_ones, [&] { return most_ones_of(program[table].values); });
 }
 
-bool TableFacts::has_negative_zero(const Program& program, BufferId table) {
+bool TableProperties::has_negative_zero(const Program& program, BufferId table) {
     return known(of(table).has_negative_zero, [&] {
         return !program[table].values.all_of(
             [](const Value& value) { return !is_negative_zero(value); });

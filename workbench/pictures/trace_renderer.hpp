@@ -4,7 +4,7 @@
 #include "formats/trace_steps.hpp"
 #include "pictures/outputs.hpp"
 
-#include <render/film.hpp>
+#include <render/episode_renderer.hpp>
 #include <render/visualizer.hpp>
 
 #include <cstdint>
@@ -20,13 +20,13 @@ struct StatesDrawn {
     std::int64_t all = 0;
 };
 
-class Reel {
+class TraceRenderer {
   public:
     // World and visualizer must outlive it. `trace` is the name of the trace in messages. Draws the
     // episode with that number; without one, each that comes.
-    Reel(const rddl::render::World& world, const rddl::render::Visualizer& visualizer,
-         const PictureOptions& options, std::vector<Output> outputs,
-         std::optional<std::int64_t> episode, std::string trace);
+    TraceRenderer(const rddl::render::World& world, const rddl::render::Visualizer& visualizer,
+                  const PictureOptions& options, std::vector<Output> outputs,
+                  std::optional<std::int64_t> episode, std::string trace);
 
     // Throws a Failure, as do the functions below, and stops drawing on an interrupt.
     void add_line(std::string_view line);
@@ -48,8 +48,8 @@ class Reel {
     std::optional<std::int64_t> wanted_;
     std::string trace_;
     std::optional<TraceSteps> steps_;
-    std::optional<TraceStep> pending_;        // the last one may turn out to be the end
-    std::optional<rddl::render::Film> film_;  // of the episode that has begun
+    std::optional<TraceStep> pending_;  // the last one may turn out to be the end
+    std::optional<rddl::render::EpisodeRenderer> renderer_;  // of the episode that has begun
     Pace pace_;
     // All states of an episode of which only some are drawn: their number determines which.
     std::vector<TraceStep> held_;

@@ -1,4 +1,4 @@
-#include "passes/analyses/pieces.hpp"
+#include "passes/analyses/piecewise_constant.hpp"
 
 #include "passes/analyses/constant_values.hpp"
 #include "support/match.hpp"
@@ -53,7 +53,7 @@ class Collector {
 
     // False if there is something else that is not constant.
     bool visit(ir::NodeId id) {
-        if (builder_.facts(id).uniform) return !builder_.facts(id).may_fault;
+        if (builder_.properties(id).uniform) return !builder_.properties(id).may_fault;
         if (!visited_.insert(id).second) return true;
         const ir::Node& node = program()[id];
         if (const auto* apply = std::get_if<ir::Apply>(&node.form)) {
@@ -69,9 +69,9 @@ class Collector {
                                    [&](ir::NodeId operand) { return visit(operand); });
     }
 
-    std::optional<Pieces> result() const {
+    std::optional<PiecewiseConstant> result() const {
         if (!number_ || breaks_.empty() || breaks_.size() > most_breaks) return std::nullopt;
-        Pieces pieces{*number_, {}, {}};
+        PiecewiseConstant pieces{*number_, {}, {}};
         for (const auto& [value, entry] : breaks_) {
             pieces.breaks.push_back(value);
             pieces.entries.push_back(entry);
@@ -82,18 +82,18 @@ class Collector {
 
   private:
     bool compare(Operator op, ir::NodeId a, ir::NodeId b) {
-        if (builder_.facts(a).uniform) return compare(mirrored(op), b, a);
-        const ir::Facts& facts = builder_.facts(a);
-        if (!facts.free_variables.empty() || facts.may_fault) return false;
+        if (builder_.properties(a).uniform) return compare(mirrored(op), b, a);
+        const ir::Properties& properties = builder_.properties(a);
+        if (!properties.free_variables.empty() || properties.may_fault) return false;
         if (number_ && *number_ != a) return false;
         number_ = a;
-        return builder_.facts(b).uniform && add_breaks(op, b);
+        return builder_.properties(b).uniform && add_breaks(op, b);
     }
 
     bool add_breaks(Operator op, ir::NodeId bound) {
         if (!evaluator_) return true;
-        const auto values =
-            constant_values(*evaluator_, program(), bound, builder_.facts(bound).free_variables);
+        const auto values = constant_values(*evaluator_, program(), bound,
+                                            builder_.properties(bound).free_variables);
         if (!values || values->size() > most_breaks) return false;
         const bool before = op != Operator::LessEqual && op != Operator::Greater;
         const bool behind = op != Operator::Less && op != Operator::GreaterEqual;
@@ -127,7 +127,7 @@ ir::Value below(const ir::Value& value) {
 
 }  // namespace
 
-std::vector<ir::Value> Pieces::representatives() const {
+std::vector<ir::Value> PiecewiseConstant::representatives() const {
     std::vector<ir::Value> values = {below(breaks.front())};
     values.insert(values.end(), breaks.begin(), breaks.end());
     return values;
@@ -138,8 +138,9 @@ bool compares_one_number(const ir::Builder& builder, ir::NodeId id) {
     return collector.visit(id) && collector.has_number();
 }
 
-std::optional<Pieces> pieces_of(const ir::Builder& builder, const ir::Evaluator& evaluator,
-                                ir::NodeId id) {
+std::optional<PiecewiseConstant> piecewise_constant_of(const ir::Builder& builder,
+                                                       const ir::Evaluator& evaluator,
+                                                       ir::NodeId id) {
     Collector collector(builder, &evaluator);
     if (!collector.visit(id)) return std::nullopt;
     return collector.result();

@@ -1,7 +1,7 @@
-#include "solvers/ppo/room.hpp"
+#include "solvers/ppo/memory_estimate.hpp"
 
+#include "solvers/action_distribution/memory_estimate.hpp"
 #include "solvers/batches/batch.hpp"
-#include "solvers/choosing/room.hpp"
 #include "solvers/ppo/collector.hpp"
 #include "solvers/ppo/learner.hpp"
 #include "support/failure.hpp"
@@ -65,14 +65,14 @@ double bytes_of_environment(const rddl_simulator& simulator, const PpoModel& mod
         bytes_of(actions.column_count + model.policy.padded_outputs() + model.memory.padded_units);
     if (model.noisy_units() > 0)
         bytes += bytes_of(model.deviation_count() + 2.0 * actions.real_count() + 1);
-    bytes += sizeof(Moments) + 7 * sizeof(double) + 3.0 + bytes_of_chooser(simulator, actions);
+    bytes += sizeof(Moments) + 7 * sizeof(double) + 3.0 + bytes_of_distribution(simulator, actions);
     return bytes + static_cast<double>(bytes_per_environment(simulator));
 }
 
-std::string advice(const PpoRoom& room) {
-    if (room.steps >= std::max(room.networks + room.files, room.environments))
+std::string advice(const PpoMemory& memory) {
+    if (memory.steps >= std::max(memory.networks + memory.files, memory.environments))
         return "try a smaller --rollout, --envs or --stack, or a larger --memory-limit";
-    if (room.environments >= room.networks + room.files)
+    if (memory.environments >= memory.networks + memory.files)
         return "try a smaller --envs, or a larger --memory-limit";
     return "try smaller --hidden, --recurrent or --minibatch, fewer --threads, or a larger "
            "--memory-limit";
@@ -80,37 +80,38 @@ std::string advice(const PpoRoom& room) {
 
 }  // namespace
 
-PpoRoom room_of(const rddl_simulator& simulator, const PpoModel& model, const PpoOptions& options) {
-    PpoRoom room;
+PpoMemory memory_of(const rddl_simulator& simulator, const PpoModel& model,
+                    const PpoOptions& options) {
+    PpoMemory memory;
     const double environments = options.environments;
-    room.networks = networks(model, options);
-    room.files = bytes_of_files * static_cast<double>(parameter_count(model));
-    room.steps = environments * options.rollout * bytes_of_step(model, options);
-    room.environments = environments * bytes_of_environment(simulator, model);
-    return room;
+    memory.networks = networks(model, options);
+    memory.files = bytes_of_files * static_cast<double>(parameter_count(model));
+    memory.steps = environments * options.rollout * bytes_of_step(model, options);
+    memory.environments = environments * bytes_of_environment(simulator, model);
+    return memory;
 }
 
-void require_room(const rddl_simulator& simulator, const PpoModel& model,
-                  const PpoOptions& options) {
-    const PpoRoom room = room_of(simulator, model, options);
+void require_memory(const rddl_simulator& simulator, const PpoModel& model,
+                    const PpoOptions& options) {
+    const PpoMemory memory = memory_of(simulator, model, options);
     const auto limit = static_cast<double>(options.memory_limit);
-    if (room.all() <= limit) return;
+    if (memory.all() <= limit) return;
     throw Failure(
         fmt::format("PPO would take about {}, more than the limit of {}: {} for the {} steps "
                     "between two updates, {} for {} environments, {} for networks of {} weights "
                     "and their files",
-                    memory_text(room.all()), memory_text(limit), memory_text(room.steps),
+                    memory_text(memory.all()), memory_text(limit), memory_text(memory.steps),
                     std::int64_t{options.environments} * options.rollout,
-                    memory_text(room.environments), options.environments,
-                    memory_text(room.networks + room.files), parameter_count(model)),
-        advice(room));
+                    memory_text(memory.environments), options.environments,
+                    memory_text(memory.networks + memory.files), parameter_count(model)),
+        advice(memory));
 }
 
 int fitting_rollout(const rddl_simulator& simulator, const PpoModel& model,
                     const PpoOptions& options) {
     PpoOptions fitting = options;
     const auto fits = [&] {
-        return room_of(simulator, model, fitting).all() <=
+        return memory_of(simulator, model, fitting).all() <=
                static_cast<double>(options.memory_limit);
     };
     // An update of more, samples times weights, takes the better part of a minute.

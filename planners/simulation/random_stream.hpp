@@ -15,9 +15,9 @@ inline std::uint64_t scrambled(std::uint64_t bits) {
     return bits ^ (bits >> 31);
 }
 
-class Luck {
+class RandomStream {
   public:
-    Luck(std::uint64_t seed, std::int64_t episode, std::int64_t step)
+    RandomStream(std::uint64_t seed, std::int64_t episode, std::int64_t step)
         : state_(scrambled(
               scrambled(scrambled(seed + mark) + static_cast<std::uint64_t>(episode) * increment) +
               static_cast<std::uint64_t>(step) * increment)) {}

@@ -1,4 +1,4 @@
-#include "passes/analyses/several_objects.hpp"
+#include "passes/analyses/object_lanes.hpp"
 
 #include "support/match.hpp"
 
@@ -13,20 +13,20 @@ constexpr std::int64_t fewest_iterations = 8;
 
 }  // namespace
 
-SeveralObjects::SeveralObjects(const ir::Program& program, FactsOf facts_of, ir::Nest nest,
-                               std::function<bool(ir::NodeId)> is_element)
+ObjectLanes::ObjectLanes(const ir::Program& program, PropertiesOf properties_of, ir::Nest nest,
+                         std::function<bool(ir::NodeId)> is_element)
     : program_(program),
-      facts_of_(std::move(facts_of)),
+      properties_of_(std::move(properties_of)),
       nest_(std::move(nest)),
       is_element_(std::move(is_element)) {}
 
-bool SeveralObjects::are_enough() const {
+bool ObjectLanes::are_enough() const {
     std::int64_t iterations = 1;
     for (const ir::VariableId variable : nest_.variables) iterations *= program_[variable].size;
     return iterations >= fewest_iterations;
 }
 
-bool SeveralObjects::can_evaluate(ir::NodeId id) const {
+bool ObjectLanes::can_evaluate(ir::NodeId id) const {
     if (is_element_ && is_element_(id)) return true;
     return match(
         program_[id].form, [](const ir::Constant&) { return true; },
@@ -45,26 +45,26 @@ bool SeveralObjects::can_evaluate(ir::NodeId id) const {
         [](const auto&) { return false; });
 }
 
-bool SeveralObjects::can_evaluate_all(const std::vector<ir::NodeId>& ids) const {
+bool ObjectLanes::can_evaluate_all(const std::vector<ir::NodeId>& ids) const {
     return std::ranges::all_of(ids, [&](ir::NodeId id) { return can_evaluate(id); });
 }
 
 // An element of these objects, or one that is the same for all of them, or that they choose from a
 // table of constants.
-bool SeveralObjects::can_load(const ir::Load& load) const {
+bool ObjectLanes::can_load(const ir::Load& load) const {
     if (ir::begins_with(program_, load.indices, nest_)) {
         const auto rest =
             load.indices.begin() + static_cast<std::ptrdiff_t>(nest_.variables.size());
         return can_evaluate_all({rest, load.indices.end()});
     }
     const bool is_same = std::ranges::all_of(load.indices, [&](ir::NodeId index) {
-        return ir::is_same_for_all(facts_of_(index), nest_);
+        return ir::is_same_for_all(properties_of_(index), nest_);
     });
     return is_same || (program_[load.buffer].storage == ir::Storage::Constant &&
                        can_evaluate_all(load.indices));
 }
 
-bool SeveralObjects::can_store(const ir::Store& store) const {
+bool ObjectLanes::can_store(const ir::Store& store) const {
     return store.indices.size() == nest_.variables.size() &&
            ir::begins_with(program_, store.indices, nest_) && can_evaluate(store.value);
 }

@@ -1,11 +1,11 @@
 // Probabilities of choices, and the loss of PPO: gradients by finite differences for every kind of
 // head, sums over all choices, and actions that preconditions forbid.
-#include "solvers/choosing/choosing.hpp"
+#include "solvers/action_distribution/action_distribution.hpp"
 
 #include "action_batch.hpp"
 #include "simulators.hpp"
+#include "solvers/action_distribution/probabilities.hpp"
 #include "solvers/batches/batch.hpp"
-#include "solvers/choosing/probabilities.hpp"
 #include "solvers/ppo/loss.hpp"
 
 #include <gtest/gtest.h>
@@ -274,7 +274,7 @@ TEST(Choosing, DrawsAsItSays) {
     const ActionSpace space = action_space(simulator);
     ASSERT_EQ(space.real_count(), 1);
     constexpr std::int64_t environments = 64, steps = 2000;
-    Chooser chooser(simulator, space, Noise::Ar1, 0.9, environments);
+    ActionDistribution distribution(simulator, space, Noise::Ar1, 0.9, environments);
     rddl_batch_options options{};
     options.environment_count = environments;
     const BatchHandle batch = create_batch(simulator, options);
@@ -284,7 +284,7 @@ TEST(Choosing, DrawsAsItSays) {
     double sum = 0, squares = 0, products = 0, count = 0;
     std::vector<float> before;
     for (std::int64_t t = 0; t < steps; ++t) {
-        chooser.choose(
+        distribution.choose(
             batch.get(), outputs.data(), 1, Deviations{&log_deviation},
             [&](std::int64_t e) {
                 return ChoiceKey{9, static_cast<std::uint64_t>(e), static_cast<std::uint64_t>(t)};
@@ -327,25 +327,25 @@ TEST(Actions, AreTheDefaultWhereAPolicyHasNoNumber) {
     }
 }
 
-TEST(Mending, MakesActionsLegal) {
+TEST(Repair, MakesActionsLegal) {
     ActionBatch all(*rddl_simulator_reservoir_reservoir_1());
     ASSERT_TRUE(all.space.may_be_illegal);
     std::mt19937 random(4);
     std::uniform_real_distribution<float> uniform(0, 200);
-    std::int64_t mended = 0;
+    std::int64_t repaired = 0;
     for (int step = 0; step < 20; ++step) {
         for (float& value : all.values) value = random() % 3 ? uniform(random) : 0.0f;
         all.write();
         const std::vector<float> wanted = all.values;
         const std::vector<std::int32_t> before = all.violated();
-        mended += all.mend();
+        repaired += all.mend();
         EXPECT_EQ(all.violated(), all_legal);
         for (std::size_t e = 0; e < all.environments; ++e)
             for (std::size_t c = 0; c < all.columns && before[e] < 0; ++c)
                 EXPECT_EQ(all.row(e)[c], wanted[e * all.columns + c]);
         all.simulator.step(all.batch.get(), all.bytes.data(), nullptr);
     }
-    EXPECT_GT(mended, 100);
+    EXPECT_GT(repaired, 100);
 }
 
 }  // namespace

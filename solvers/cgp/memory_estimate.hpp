@@ -12,20 +12,20 @@
 namespace rddlc::solvers {
 
 // Bytes.
-struct CgpRoom {
+struct CgpMemory {
     double environments = 0;  // of simulators, and what programs compute in them
     double programs = 0;      // those of a generation, and what is remembered of others
     double all() const { return environments + programs; }
 };
 
 // The estimate for so many islands. No option is "chosen here" any more.
-CgpRoom room_of(const rddl_simulator& simulator, const ProgramScope& scope,
-                const CgpOptions& options, std::int64_t islands);
+CgpMemory memory_of(const rddl_simulator& simulator, const ProgramScope& scope,
+                    const CgpOptions& options, std::int64_t islands);
 
 // Throws a Failure with the sizes, and with what makes them smaller, where that is more than
 // options.memory_limit.
-void require_room(const rddl_simulator& simulator, const ProgramScope& scope,
-                  const CgpOptions& options, std::int64_t islands);
+void require_memory(const rddl_simulator& simulator, const ProgramScope& scope,
+                    const CgpOptions& options, std::int64_t islands);
 
 // Programs whose fitness an island remembers, at most.
 std::size_t most_remembered(const CgpOptions& options);

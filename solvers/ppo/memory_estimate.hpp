@@ -9,7 +9,7 @@
 namespace rddlc::solvers {
 
 // Bytes.
-struct PpoRoom {
+struct PpoMemory {
     double networks = 0;      // weights, their gradients and moments, and what threads compute with
     double files = 0;         // policies and checkpoints, while they are written
     double steps = 0;         // all that is kept of the steps between two updates
@@ -18,12 +18,13 @@ struct PpoRoom {
 };
 
 // The estimate for a model whose networks are laid out; they need no parameters yet.
-PpoRoom room_of(const rddl_simulator& simulator, const PpoModel& model, const PpoOptions& options);
+PpoMemory memory_of(const rddl_simulator& simulator, const PpoModel& model,
+                    const PpoOptions& options);
 
 // Throws a Failure with the sizes, and with what makes them smaller, where that is more than
 // options.memory_limit.
-void require_room(const rddl_simulator& simulator, const PpoModel& model,
-                  const PpoOptions& options);
+void require_memory(const rddl_simulator& simulator, const PpoModel& model,
+                    const PpoOptions& options);
 
 // The options' rollout, halved as often as it takes to fit, and so that no update takes minutes;
 // never so often that less than a minibatch is left. As it was where that does not suffice to fit.

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "render/canvas.hpp"
-#include "render/moment.hpp"
+#include "render/snapshot.hpp"
 #include "render/visualizer.hpp"
 
 #include <cstdint>
@@ -11,18 +11,18 @@
 
 namespace rddl::render {
 
-class Film {
+class EpisodeRenderer {
   public:
     // World and visualizer must outlive it. `horizon` is 0 if there is no horizon. The size is in
     // pixels; throws Error for sizes that no canvas has.
-    Film(const World& world, const Visualizer& visualizer, int width, int height,
-         std::int64_t episode, std::int64_t horizon);
+    EpisodeRenderer(const World& world, const Visualizer& visualizer, int width, int height,
+                    std::int64_t episode, std::int64_t horizon);
 
     // The next state of the episode.
     void add(Step step);
 
-    // The moment of the state that was added last.
-    Moment moment() const { return Moment(world_, steps_, episode_, horizon_); }
+    // The snapshot of the state that was added last.
+    Snapshot snapshot() const { return Snapshot(world_, steps_, episode_, horizon_); }
     const Picture& picture();  // drawn when it is first asked for
     std::string svg() const;
 

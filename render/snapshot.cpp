@@ -1,4 +1,4 @@
-#include "render/moment.hpp"
+#include "render/snapshot.hpp"
 
 #include <charconv>
 #include <cmath>
@@ -95,7 +95,7 @@ std::string World::name_of(const rddl_fluent& fluent, std::int64_t grounding) co
     return fluent.rank == 0 ? fluent.name : std::string(fluent.name) + "(" + objects + ")";
 }
 
-Values Moment::values_in(const Step& step, const rddl_fluent& fluent) const {
+Values Snapshot::values_in(const Step& step, const rddl_fluent& fluent) const {
     const bool is_action = fluent.role == RDDL_ACTION;
     const std::byte* record = is_action ? step.action.data() : step.state.data();
     if (is_action && step.action.empty())
@@ -103,24 +103,24 @@ Values Moment::values_in(const Step& step, const rddl_fluent& fluent) const {
     return read_values(problem(), fluent, record + fluent.offset);
 }
 
-double Moment::number_in(const Step& step, std::string_view name, std::size_t grounding) const {
+double Snapshot::number_in(const Step& step, std::string_view name, std::size_t grounding) const {
     const rddl_fluent* const fluent = world_.find(name);
     if (!fluent) throw Error("there is no fluent '" + std::string(name) + "'");
     return values_in(step, *fluent).numbers.at(grounding);
 }
 
-double Moment::default_of(std::string_view name, std::size_t grounding) const {
+double Snapshot::default_of(std::string_view name, std::size_t grounding) const {
     return number_in(Step{}, name, grounding);
 }
 
-const Values& Moment::values(const rddl_fluent& fluent) const {
+const Values& Snapshot::values(const rddl_fluent& fluent) const {
     if (fluent.role == RDDL_NON_FLUENT) return world_.constant(fluent);
     auto& place = read_[&fluent];
     if (!place) place = std::make_unique<Values>(values_in(now(), fluent));
     return *place;
 }
 
-const Values& Moment::operator[](std::string_view name) const {
+const Values& Snapshot::operator[](std::string_view name) const {
     const rddl_fluent* const fluent = world_.find(name);
     if (!fluent) throw Error("there is no fluent '" + std::string(name) + "'");
     return values(*fluent);

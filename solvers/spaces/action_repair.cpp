@@ -1,4 +1,4 @@
-#include "solvers/spaces/mending.hpp"
+#include "solvers/spaces/action_repair.hpp"
 
 #include "solvers/batches/batch.hpp"
 
@@ -10,23 +10,23 @@ namespace rddlc::solvers {
 
 namespace {
 
-using Search = MendingSearch;
+using Search = RepairSearch;
 
 // How often a real is halved before it takes its default.
 constexpr int most_halves = 3;
 // How many values are repaired one by one; after that all others take their default. Large actions
 // get fewer, since each check of theirs takes its time.
-int most_mended(int columns) {
+int most_repaired(int columns) {
     return std::clamp(16'000 / columns, 1, 16);
 }
 
 // The repair of one environment's action.
-class Mending {
+class Repair {
   public:
-    Mending(const MendingRoom& room, int columns, const float* base)
-        : is_real_(room.is_real),
+    Repair(const RepairBuffers& buffers, int columns, const float* base)
+        : is_real_(buffers.is_real),
           columns_(columns),
-          most_mended_(most_mended(columns)),
+          most_repaired_(most_repaired(columns)),
           base_(base) {}
 
     void start(Search& search, float* wanted) const {
@@ -61,14 +61,14 @@ class Mending {
     void mend(Search& search, float* wanted) const {
         const auto column = static_cast<std::size_t>(search.legal);
         const float base = base_[column];
-        if (is_real_[column] && search.halves < most_halves && search.mended < most_mended_) {
+        if (is_real_[column] && search.halves < most_halves && search.repaired < most_repaired_) {
             wanted[column] = base + (wanted[column] - base) * 0.5f;
             search.halves += 1;
             search.question = Search::Question::Value;
             return;
         }
         wanted[column] = base;
-        if (search.mended >= most_mended_)
+        if (search.repaired >= most_repaired_)
             std::copy(base_ + search.legal, base_ + columns_, wanted + search.legal);
         go_on(search);
     }
@@ -76,12 +76,12 @@ class Mending {
     void go_on(Search& search) const {
         search.legal += 1;
         search.halves = 0;
-        search.mended += 1;
+        search.repaired += 1;
         search.question = Search::Question::All;
     }
 
     const std::vector<std::uint8_t>& is_real_;
-    int columns_, most_mended_;
+    int columns_, most_repaired_;
     const float* base_;
 };
 
@@ -93,21 +93,27 @@ struct Actions {
     rddl_batch* batch;
     float* values;
     std::byte* records;
-    MendingRoom& room;
+    RepairBuffers& buffers;
 
-    std::int64_t count() const { return static_cast<std::int64_t>(room.searches.size()); }
+    std::int64_t count() const { return static_cast<std::int64_t>(buffers.searches.size()); }
     float* values_of(std::int64_t i) const { return values + i * space.column_count; }
-    float* wanted_of(std::int64_t i) const { return room.wanted.data() + i * space.column_count; }
-    float* base_of(std::int64_t i) const { return room.bases.data() + i * space.column_count; }
+    float* wanted_of(std::int64_t i) const {
+        return buffers.wanted.data() + i * space.column_count;
+    }
+    float* base_of(std::int64_t i) const { return buffers.bases.data() + i * space.column_count; }
     std::byte* record_of(std::int64_t i) const {
         return records + static_cast<std::size_t>(i) * converter.record_size();
     }
-    Search& search_of(std::int64_t i) const { return room.searches[static_cast<std::size_t>(i)]; }
-    bool is_legal(std::int64_t i) const { return room.violated[static_cast<std::size_t>(i)] < 0; }
+    Search& search_of(std::int64_t i) const {
+        return buffers.searches[static_cast<std::size_t>(i)];
+    }
+    bool is_legal(std::int64_t i) const {
+        return buffers.violated[static_cast<std::size_t>(i)] < 0;
+    }
 
     void ask() const {
         require_done(simulator,
-                     simulator.violated_preconditions(batch, records, room.violated.data()));
+                     simulator.violated_preconditions(batch, records, buffers.violated.data()));
     }
     // The first values as they are wanted, the others as in the base.
     void set_first(std::int64_t i, int values_wanted) const {
@@ -136,11 +142,11 @@ void try_bases(const Actions& all, const auto& make) {
 
 // Searches for all environments side by side, since the simulator is asked about all of them.
 void try_random_bases(const Actions& all) {
-    MendingRoom& room = all.room;
-    for (RandomPolicy::Search& search : room.random_searches) search.restart();
+    RepairBuffers& buffers = all.buffers;
+    for (RandomPolicy::Search& search : buffers.random_searches) search.restart();
     for (std::int64_t i = 0; i < all.count(); ++i)
-        if (needs_base(all.search_of(i))) room.random->act(0, 0, all.record_of(i));
-    for (bool searching = true; searching && !is_stopped(room.stops);) {
+        if (needs_base(all.search_of(i))) buffers.random->act(0, 0, all.record_of(i));
+    for (bool searching = true; searching && !is_stopped(buffers.stops);) {
         all.ask();
         searching = false;
         for (std::int64_t i = 0; i < all.count(); ++i) {
@@ -149,8 +155,8 @@ void try_random_bases(const Actions& all) {
                 all.converter.read(all.record_of(i), all.base_of(i));
                 all.search_of(i).has_base = true;
             } else {
-                searching |= room.random->try_another(
-                    0, 0, room.random_searches[static_cast<std::size_t>(i)], all.record_of(i));
+                searching |= buffers.random->try_another(
+                    0, 0, buffers.random_searches[static_cast<std::size_t>(i)], all.record_of(i));
             }
         }
     }
@@ -158,7 +164,7 @@ void try_random_bases(const Actions& all) {
 
 // Begins a search wherever an action is illegal and a legal one is found, its base.
 void begin_searches(const Actions& all) {
-    std::vector<Search>& searches = all.room.searches;
+    std::vector<Search>& searches = all.buffers.searches;
     std::fill(searches.begin(), searches.end(), Search{});
     for (std::int64_t i = 0; i < all.count(); ++i) all.search_of(i).active = !all.is_legal(i);
 
@@ -181,8 +187,8 @@ void begin_searches(const Actions& all) {
 
 }  // namespace
 
-MendingRoom::MendingRoom(const rddl_simulator& simulator, const ActionSpace& space,
-                         std::int64_t environments)
+RepairBuffers::RepairBuffers(const rddl_simulator& simulator, const ActionSpace& space,
+                             std::int64_t environments)
     : random(std::in_place, *simulator.problem, 0) {
     const auto count = static_cast<std::size_t>(environments);
     violated.resize(count);
@@ -195,30 +201,30 @@ MendingRoom::MendingRoom(const rddl_simulator& simulator, const ActionSpace& spa
         is_real[static_cast<std::size_t>(head.column)] = !head.rounds;
 }
 
-std::int64_t mend_actions(const rddl_simulator& simulator, const ActionSpace& space,
-                          const ActionRecords& converter, rddl_batch* batch, float* actions,
-                          std::byte* records, MendingRoom& room) {
-    const Actions all{simulator, space, converter, batch, actions, records, room};
+std::int64_t repair_actions(const rddl_simulator& simulator, const ActionSpace& space,
+                            const ActionRecords& converter, rddl_batch* batch, float* actions,
+                            std::byte* records, RepairBuffers& buffers) {
+    const Actions all{simulator, space, converter, batch, actions, records, buffers};
     all.ask();
     const std::int64_t illegal =
-        std::ranges::count_if(room.violated, [](auto v) { return v >= 0; });
+        std::ranges::count_if(buffers.violated, [](auto v) { return v >= 0; });
     if (illegal == 0) return 0;
 
     const int columns = space.column_count;
-    std::copy_n(actions, all.count() * columns, room.wanted.begin());
+    std::copy_n(actions, all.count() * columns, buffers.wanted.begin());
     begin_searches(all);
-    const auto mending_of = [&](std::int64_t i) {
-        return Mending(room, columns, all.base_of(i));
+    const auto repair_of = [&](std::int64_t i) {
+        return Repair(buffers, columns, all.base_of(i));
     };
     for (std::int64_t i = 0; i < all.count(); ++i)
-        if (all.search_of(i).active) mending_of(i).start(all.search_of(i), all.wanted_of(i));
-    while (std::ranges::any_of(room.searches, &Search::active) && !is_stopped(room.stops)) {
+        if (all.search_of(i).active) repair_of(i).start(all.search_of(i), all.wanted_of(i));
+    while (std::ranges::any_of(buffers.searches, &Search::active) && !is_stopped(buffers.stops)) {
         for (std::int64_t i = 0; i < all.count(); ++i)
             if (all.search_of(i).active) all.set_first(i, all.search_of(i).asked(columns));
         all.ask();
         for (std::int64_t i = 0; i < all.count(); ++i)
             if (all.search_of(i).active)
-                mending_of(i).take(all.search_of(i), all.is_legal(i), all.wanted_of(i));
+                repair_of(i).take(all.search_of(i), all.is_legal(i), all.wanted_of(i));
     }
     return illegal;
 }

@@ -1,8 +1,8 @@
-#include "solvers/choosing/choosing.hpp"
+#include "solvers/action_distribution/action_distribution.hpp"
 
+#include "solvers/action_distribution/probabilities.hpp"
 #include "solvers/batches/batch.hpp"
-#include "solvers/choosing/probabilities.hpp"
-#include "solvers/spaces/mending.hpp"
+#include "solvers/spaces/action_repair.hpp"
 
 #include <rddl/values/philox.hpp>
 
@@ -82,8 +82,8 @@ void standard_normals(const ChoiceKey& key, std::span<float> numbers) {
     }
 }
 
-Chooser::Chooser(const rddl_simulator& simulator, const ActionSpace& space, Noise noise,
-                 double correlation, std::int64_t environments)
+ActionDistribution::ActionDistribution(const rddl_simulator& simulator, const ActionSpace& space,
+                                       Noise noise, double correlation, std::int64_t environments)
     : simulator_(simulator),
       space_(space),
       records_(simulator),
@@ -100,21 +100,22 @@ Chooser::Chooser(const rddl_simulator& simulator, const ActionSpace& space, Nois
         choice_masks_.resize(count *
                              static_cast<std::size_t>(simulator.action_choice_count(&simulator)));
     if (space.picks > 0) picked_.resize(static_cast<std::size_t>(space.column_count));
-    if (space.may_be_illegal) mending_ = MendingRoom(simulator, space, environments);
+    if (space.may_be_illegal) repair_ = RepairBuffers(simulator, space, environments);
 }
 
-void Chooser::begin_episode(std::int64_t environment) {
+void ActionDistribution::begin_episode(std::int64_t environment) {
     has_noise_[static_cast<std::size_t>(environment)] = 0;
 }
 
-void Chooser::write_records(const float* actions) {
+void ActionDistribution::write_records(const float* actions) {
     for (std::int64_t i = 0; i < environments_; ++i)
         records_.write(actions + i * space_.column_count,
                        actions_.data() + static_cast<std::size_t>(i) * records_.record_size());
 }
 
-void Chooser::choose_all(rddl_batch* batch, const float* outputs, int output_row,
-                         const Deviations& deviations, const Chosen& chosen, float* actions) {
+void ActionDistribution::choose_all(rddl_batch* batch, const float* outputs, int output_row,
+                                    const Deviations& deviations, const Chosen& chosen,
+                                    float* actions) {
     const bool random = deviations.logarithms != nullptr;
     if (!random && space_.logit_count == 0) return write_means(batch, outputs, output_row, actions);
     for (std::int64_t i = 0; i < environments_; ++i)
@@ -142,14 +143,15 @@ void Chooser::choose_all(rddl_batch* batch, const float* outputs, int output_row
 }
 
 // The likeliest of reals alone: what the network says.
-void Chooser::write_means(rddl_batch* batch, const float* outputs, int output_row, float* actions) {
+void ActionDistribution::write_means(rddl_batch* batch, const float* outputs, int output_row,
+                                     float* actions) {
     for (std::int64_t i = 0; i < environments_; ++i)
         write_action(space_, outputs + i * output_row, nullptr, actions + i * space_.column_count);
     if (space_.may_be_illegal) mend(batch, actions);
 }
 
-void Chooser::choose_reals(std::size_t i, const float* means, const Deviations& deviations,
-                           const Chosen& chosen) {
+void ActionDistribution::choose_reals(std::size_t i, const float* means,
+                                      const Deviations& deviations, const Chosen& chosen) {
     const auto reals = static_cast<std::size_t>(space_.real_count());
     float* const numbers = chosen.numbers + i * reals;
     float* const shifts = chosen.shifts + i * reals;
@@ -182,8 +184,8 @@ void Chooser::choose_reals(std::size_t i, const float* means, const Deviations& 
 
 // A value that its precondition forbids, alone, is not chosen; where the default is forbidden, this
 // says nothing.
-void Chooser::choose_categories(rddl_batch* batch, const float* outputs, int output_row,
-                                bool random, const Chosen& chosen) {
+void ActionDistribution::choose_categories(rddl_batch* batch, const float* outputs, int output_row,
+                                           bool random, const Chosen& chosen) {
     const auto logits = static_cast<std::size_t>(space_.logit_count);
     const std::size_t choices = space_.logit_of_mask.size();
     if (space_.masked) {
@@ -214,8 +216,8 @@ void Chooser::choose_categories(rddl_batch* batch, const float* outputs, int out
     }
 }
 
-void Chooser::choose_picks(rddl_batch* batch, const float* outputs, int output_row, bool random,
-                           const Chosen& chosen, float* actions) {
+void ActionDistribution::choose_picks(rddl_batch* batch, const float* outputs, int output_row,
+                                      bool random, const Chosen& chosen, float* actions) {
     const auto picks = static_cast<std::size_t>(space_.picks);
     const auto logits = static_cast<std::size_t>(space_.logit_count);
     std::fill_n(chosen.indices, keys_.size() * picks, -1);
@@ -254,7 +256,7 @@ void Chooser::choose_picks(rddl_batch* batch, const float* outputs, int output_r
 
 // Masks the next pick: a choice must be legal then. If no choice is legal, all that are not picked
 // yet are allowed, since more changes may repair the action.
-void Chooser::mask_pick(std::size_t i, int pick, const Chosen& chosen) {
+void ActionDistribution::mask_pick(std::size_t i, int pick, const Chosen& chosen) {
     const auto picks = static_cast<std::size_t>(space_.picks);
     const std::size_t logits = space_.choices.size();
     const std::uint8_t* const allowed =
@@ -285,10 +287,10 @@ void Chooser::mask_pick(std::size_t i, int pick, const Chosen& chosen) {
     if (!any) mask[0] = 1;
 }
 
-void Chooser::mend(rddl_batch* batch, float* actions) {
+void ActionDistribution::mend(rddl_batch* batch, float* actions) {
     write_records(actions);
-    mended_ +=
-        mend_actions(simulator_, space_, records_, batch, actions, actions_.data(), mending_);
+    repaired_ +=
+        repair_actions(simulator_, space_, records_, batch, actions, actions_.data(), repair_);
 }
 
 }  // namespace rddlc::solvers

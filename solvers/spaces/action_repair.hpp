@@ -16,7 +16,7 @@ namespace rddlc::solvers {
 
 // One environment's search, by questions whether an action is legal of which the first values are
 // as wanted and the others as in a legal action, its base.
-struct MendingSearch {
+struct RepairSearch {
     enum class Question {
         All,     // is it legal now?
         Middle,  // which value is at fault?
@@ -26,7 +26,7 @@ struct MendingSearch {
     bool has_base = false;
     int legal = 0;  // with so many values it is legal
     int end = 0;    // with so many it is not
-    int halves = 0, mended = 0;
+    int halves = 0, repaired = 0;
 
     int asked(int columns) const {
         return question == Question::All     ? columns
@@ -36,14 +36,14 @@ struct MendingSearch {
 };
 
 // Buffers that are kept, so that nothing is allocated repeatedly.
-struct MendingRoom {
-    MendingRoom() = default;
-    MendingRoom(const rddl_simulator& simulator, const ActionSpace& space,
-                std::int64_t environments);
+struct RepairBuffers {
+    RepairBuffers() = default;
+    RepairBuffers(const rddl_simulator& simulator, const ActionSpace& space,
+                  std::int64_t environments);
 
     std::vector<std::int32_t> violated;                 // a number an environment
     std::vector<float> wanted, bases;                   // rows of values
-    std::vector<MendingSearch> searches;                // one an environment
+    std::vector<RepairSearch> searches;                 // one an environment
     std::vector<std::uint8_t> is_real;                  // by column: not of ints
     std::optional<RandomPolicy> random;                 // for bases
     std::vector<RandomPolicy::Search> random_searches;  // one an environment
@@ -58,8 +58,8 @@ struct MendingRoom {
 //
 // `actions` are rows of values, `records` the same as records; both are changed. Returns how many
 // actions were illegal.
-std::int64_t mend_actions(const rddl_simulator& simulator, const ActionSpace& space,
-                          const ActionRecords& converter, rddl_batch* batch, float* actions,
-                          std::byte* records, MendingRoom& room);
+std::int64_t repair_actions(const rddl_simulator& simulator, const ActionSpace& space,
+                            const ActionRecords& converter, rddl_batch* batch, float* actions,
+                            std::byte* records, RepairBuffers& buffers);
 
 }  // namespace rddlc::solvers

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "solvers/batches/stops.hpp"
+#include "solvers/spaces/action_repair.hpp"
 #include "solvers/spaces/actions.hpp"
-#include "solvers/spaces/mending.hpp"
 
 #include <rddl/simulator.h>
 
@@ -47,11 +47,11 @@ struct Deviations {
     const float* noise = nullptr;       // rows of real_count: what was drawn; NULL: draw it
 };
 
-class Chooser {
+class ActionDistribution {
   public:
     // All that is referred to must outlive this.
-    Chooser(const rddl_simulator& simulator, const ActionSpace& space, Noise noise,
-            double correlation, std::int64_t environments);
+    ActionDistribution(const rddl_simulator& simulator, const ActionSpace& space, Noise noise,
+                       double correlation, std::int64_t environments);
 
     // Reads a row of outputs for each environment i, writes the chosen indices and numbers and the
     // row of action values. key_of(i) is asked for a ChoiceKey.
@@ -64,7 +64,7 @@ class Chooser {
     }
 
     // Sets where choosing ends early; what it points to must outlive this.
-    void set_stops(const Stops* stops) { stops_ = mending_.stops = stops; }
+    void set_stops(const Stops* stops) { stops_ = repair_.stops = stops; }
 
     // The next choice of the environment is the first of an episode.
     void begin_episode(std::int64_t environment);
@@ -73,7 +73,7 @@ class Chooser {
     std::vector<float>& noise() { return noise_; }
     std::vector<std::uint8_t>& has_noise() { return has_noise_; }
     // Actions that violated a precondition and were repaired, since the start.
-    std::int64_t mended() const { return mended_; }
+    std::int64_t repaired() const { return repaired_; }
 
   private:
     void choose_all(rddl_batch* batch, const float* outputs, int output_row,
@@ -101,9 +101,9 @@ class Chooser {
     std::vector<std::byte> actions_;          // records
     std::vector<std::uint8_t> choice_masks_;  // as the simulator writes them
     std::vector<std::uint8_t> picked_;        // columns, while an environment's mask is made
-    MendingRoom mending_;
+    RepairBuffers repair_;
     const Stops* stops_ = nullptr;
-    std::int64_t mended_ = 0;
+    std::int64_t repaired_ = 0;
 };
 
 }  // namespace rddlc::solvers

@@ -1,8 +1,8 @@
-// Courses of actions as a search sees them, and the distribution that they are drawn from: for each
+// Plans of actions as a search sees them, and the distribution that they are drawn from: for each
 // step normal numbers for reals and probabilities for categories or picks (solvers/spaces).
 #pragma once
 
-#include "planners/simulation/luck.hpp"
+#include "planners/simulation/random_stream.hpp"
 #include "solvers/spaces/actions.hpp"
 
 #include <cstdint>
@@ -11,7 +11,7 @@
 
 namespace rddlc::planners {
 
-struct Course {
+struct Plan {
     std::vector<float> numbers;         // rows of real_count
     std::vector<std::int32_t> indices;  // rows of index_count
 };
@@ -41,19 +41,19 @@ class Distribution {
     // Needed before a draw.
     void prepare();
     // Noise of two steps has this correlation.
-    void draw(Luck& luck, double correlation, Course& course) const;
-    void middle(Course& course) const;
-    // By `memory` it stays what it is; the rest is a fit to the courses, by weights whose sum is 1.
-    void fit(std::span<const Course* const> courses, std::span<const double> weights, double memory,
+    void draw(RandomStream& stream, double correlation, Plan& plan) const;
+    void middle(Plan& plan) const;
+    // By `memory` it stays what it is; the rest is a fit to the plans, by weights whose sum is 1.
+    void fit(std::span<const Plan* const> plans, std::span<const double> weights, double memory,
              bool keeps_deviations);
 
   private:
     void begin_steps(std::int64_t from);
     void draw_categories(const float* latent, const float* cumulative, std::int32_t* chosen) const;
     void draw_picks(const float* latent, const float* cumulative, std::int32_t* chosen) const;
-    void fit_reals(std::int64_t step, std::span<const Course* const> courses,
+    void fit_reals(std::int64_t step, std::span<const Plan* const> plans,
                    std::span<const double> weights, double memory, bool keeps_deviations);
-    void fit_indices(std::int64_t step, std::span<const Course* const> courses,
+    void fit_indices(std::int64_t step, std::span<const Plan* const> plans,
                      std::span<const double> weights, double memory);
     std::size_t reals() const { return static_cast<std::size_t>(space_.real_count()); }
     std::size_t indices() const { return static_cast<std::size_t>(space_.index_count()); }

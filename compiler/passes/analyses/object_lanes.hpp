@@ -13,13 +13,13 @@
 namespace rddlc::passes {
 
 // For the objects of a nest of loops, or of aggregations, over these variables.
-class SeveralObjects {
+class ObjectLanes {
   public:
-    using FactsOf = std::function<const ir::Facts&(ir::NodeId)>;
+    using PropertiesOf = std::function<const ir::Properties&(ir::NodeId)>;
 
     // `is_element` says which nodes will become elements of tables.
-    SeveralObjects(const ir::Program& program, FactsOf facts_of, ir::Nest nest,
-                   std::function<bool(ir::NodeId)> is_element = nullptr);
+    ObjectLanes(const ir::Program& program, PropertiesOf properties_of, ir::Nest nest,
+                std::function<bool(ir::NodeId)> is_element = nullptr);
 
     // Too few iterations do not fill the registers.
     bool are_enough() const;
@@ -31,7 +31,7 @@ class SeveralObjects {
     bool can_evaluate_all(const std::vector<ir::NodeId>& ids) const;
 
     const ir::Program& program_;
-    FactsOf facts_of_;
+    PropertiesOf properties_of_;
     ir::Nest nest_;
     std::function<bool(ir::NodeId)> is_element_;
 };

@@ -4,7 +4,7 @@
 #include "../runtime/tiny_batch.hpp"
 
 #include <gtest/gtest.h>
-#include <render/film.hpp>
+#include <render/episode_renderer.hpp>
 #include <render/panels.hpp>
 #include <render/replay_page.hpp>
 #include <render/state_text.hpp>
@@ -49,49 +49,50 @@ std::deque<Step> two_steps() {
 
 }  // namespace
 
-TEST(Moment, TellsValuesByNameAndObject) {
+TEST(Snapshot, TellsValuesByNameAndObject) {
     const World world(*tiny::simulator());
     const auto steps = two_steps();
-    const Moment moment(world, steps, 0, 10);
-    const Values& wear = moment["wear"];
+    const Snapshot snapshot(world, steps, 0, 10);
+    const Values& wear = snapshot["wear"];
     EXPECT_EQ(wear.count(0), 3);
     EXPECT_STREQ(wear.object(0, 1), "mill");
     EXPECT_EQ(wear(0), 0.75);
     EXPECT_EQ(wear(1), 1.25);
-    EXPECT_EQ(&moment["age|wear|running"], &wear);
+    EXPECT_EQ(&snapshot["age|wear|running"], &wear);
     EXPECT_EQ(world.find("age|youth"), nullptr);
-    EXPECT_TRUE(moment["running"].is(2));
-    EXPECT_FALSE(moment["running"].is(1));
-    EXPECT_EQ(moment.number("repairs"), 7);
-    EXPECT_STREQ(moment["mode"].range()->objects[static_cast<int>(moment.number("mode"))], "fast");
-    EXPECT_EQ(moment.number_in(steps[0], "wear", 0), 0.5);
+    EXPECT_TRUE(snapshot["running"].is(2));
+    EXPECT_FALSE(snapshot["running"].is(1));
+    EXPECT_EQ(snapshot.number("repairs"), 7);
+    EXPECT_STREQ(snapshot["mode"].range()->objects[static_cast<int>(snapshot.number("mode"))],
+                 "fast");
+    EXPECT_EQ(snapshot.number_in(steps[0], "wear", 0), 0.5);
     EXPECT_EQ(world.name_of(*world.find("wear"), 2), "wear(press)");
 }
 
-TEST(Moment, HasTheDefaultActionWhereNoneIsTaken) {
+TEST(Snapshot, HasTheDefaultActionWhereNoneIsTaken) {
     const World world(*tiny::simulator());
     auto steps = two_steps();
-    EXPECT_TRUE(Moment(world, steps, 0, 10)["repair"].is(1));
+    EXPECT_TRUE(Snapshot(world, steps, 0, 10)["repair"].is(1));
     steps.back().action.clear();
-    const Moment end(world, steps, 0, 10);
+    const Snapshot end(world, steps, 0, 10);
     EXPECT_FALSE(end.acts());
     EXPECT_FALSE(end["repair"].is(1));
 }
 
-TEST(Moment, KnowsNoOtherFluents) {
+TEST(Snapshot, KnowsNoOtherFluents) {
     const World world(*tiny::simulator());
     const auto steps = two_steps();
-    const Moment moment(world, steps, 0, 10);
-    EXPECT_FALSE(moment.has("speed"));
-    EXPECT_EQ(moment.number_or("speed", 3), 3);
-    EXPECT_THROW(moment["speed"], Error);
-    EXPECT_THROW(moment.number_in(steps[0], "speed"), Error);
+    const Snapshot snapshot(world, steps, 0, 10);
+    EXPECT_FALSE(snapshot.has("speed"));
+    EXPECT_EQ(snapshot.number_or("speed", 3), 3);
+    EXPECT_THROW(snapshot["speed"], Error);
+    EXPECT_THROW(snapshot.number_in(steps[0], "speed"), Error);
 }
 
 TEST(StateText, ListsTrueBoolsAndMarksChanges) {
     const World world(*tiny::simulator());
     const auto steps = two_steps();
-    const std::vector<TextLine> lines = state_lines(Moment(world, steps, 0, 10));
+    const std::vector<TextLine> lines = state_lines(Snapshot(world, steps, 0, 10));
     ASSERT_EQ(lines.size(), 6u);
     EXPECT_EQ(lines[0].name, "wear(lathe)");
     EXPECT_EQ(lines[0].value, "0.75");
@@ -106,9 +107,9 @@ TEST(StateText, ListsTrueBoolsAndMarksChanges) {
 TEST(StateText, TellsWhatDiffersFromTheDefaultAction) {
     const World world(*tiny::simulator());
     auto steps = two_steps();
-    EXPECT_EQ(action_text(Moment(world, steps, 0, 10)), "repair(mill)");
+    EXPECT_EQ(action_text(Snapshot(world, steps, 0, 10)), "repair(mill)");
     steps.back().action.clear();
-    EXPECT_EQ(action_text(Moment(world, steps, 0, 10)), "default");
+    EXPECT_EQ(action_text(Snapshot(world, steps, 0, 10)), "default");
 }
 
 TEST(Numbers, AreShortAndWhole) {
@@ -147,16 +148,16 @@ TEST(Visualizers, FallBackToAutoWhereAFluentIsMissing) {
 TEST(Visualizers, ForAnyProblemDrawEveryKindOfFluent) {
     const World world(*tiny::simulator());
     for (const char* const name : {"auto", "chart", "heatmap", "text"}) {
-        Film film(world, *find_visualizer(name), 300, 200, 0, 10);
+        EpisodeRenderer renderer(world, *find_visualizer(name), 300, 200, 0, 10);
         std::set<std::uint32_t> colours;
         for (Step& step : two_steps()) {
-            film.add(step);
-            const Picture& picture = film.picture();
+            renderer.add(step);
+            const Picture& picture = renderer.picture();
             EXPECT_EQ(picture.pixels.size(), 300u * 200u);
             colours.insert(picture.pixels.begin(), picture.pixels.end());
         }
         EXPECT_GT(colours.size(), 30u) << name;
-        EXPECT_TRUE(film.svg().ends_with("</svg>\n")) << name;
+        EXPECT_TRUE(renderer.svg().ends_with("</svg>\n")) << name;
     }
 }
 
@@ -167,12 +168,12 @@ class PicturesInCommaLocale : public CommaLocale {
         const World world(*tiny::simulator());
         std::string all;
         for (const char* const name : {"auto", "chart", "heatmap", "text"}) {
-            Film film(world, *find_visualizer(name), 300, 200, 0, 10);
+            EpisodeRenderer renderer(world, *find_visualizer(name), 300, 200, 0, 10);
             ReplayPage page(world, 300, 200, 2.5);
             page.begin_run("run");
             for (Step& step : two_steps()) {
-                film.add(step);
-                page.add(film.moment(), film.picture());
+                renderer.add(step);
+                page.add(renderer.snapshot(), renderer.picture());
             }
             all += page.html();
         }
@@ -190,17 +191,17 @@ TEST_F(PicturesInCommaLocale, AreTheSame) {
     EXPECT_TRUE(here == drawn()) << "pages and their pictures depend on the locale";
 }
 
-TEST(Film, ForgetsWhatWasLongAgo) {
+TEST(EpisodeRenderer, ForgetsWhatWasLongAgo) {
     const World world(*tiny::simulator());
-    Film film(world, *find_visualizer("chart"), 300, 200, 0, 0);
+    EpisodeRenderer renderer(world, *find_visualizer("chart"), 300, 200, 0, 0);
     for (std::int64_t k = 0; k < 1500; ++k) {
         Step step = two_steps()[0];
         step.number = k;
-        film.add(std::move(step));
+        renderer.add(std::move(step));
     }
-    EXPECT_EQ(film.moment().steps().size(), most_steps_remembered);
-    EXPECT_EQ(film.moment().now().number, 1499);
-    EXPECT_EQ(film.picture().width, 300);
+    EXPECT_EQ(renderer.snapshot().steps().size(), most_steps_remembered);
+    EXPECT_EQ(renderer.snapshot().now().number, 1499);
+    EXPECT_EQ(renderer.picture().width, 300);
 }
 
 TEST(Range, IsThatOfFiniteNumbers) {
@@ -209,11 +210,11 @@ TEST(Range, IsThatOfFiniteNumbers) {
     tiny::StateRecord odd = state();
     odd.wear = {INFINITY, NAN, 4};
     steps.back().state = bytes_of(odd);
-    const Moment moment(world, steps, 0, 10);
-    const Range range = range_of(moment, *world.find("wear"));
+    const Snapshot snapshot(world, steps, 0, 10);
+    const Range range = range_of(snapshot, *world.find("wear"));
     EXPECT_EQ(range.low, 0);
     EXPECT_EQ(range.high, 4);
-    EXPECT_EQ(range_of(moment, *world.find("running")).high, 1);
+    EXPECT_EQ(range_of(snapshot, *world.find("running")).high, 1);
 }
 
 }  // namespace rddl::render

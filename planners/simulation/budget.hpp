@@ -19,9 +19,9 @@ struct Budget {
 };
 inline constexpr double default_seconds = 0.1;
 
-class Meter {
+class BudgetMeter {
   public:
-    Meter(const Budget& budget, const solvers::Stops* stops)
+    BudgetMeter(const Budget& budget, const solvers::Stops* stops)
         : budget_(budget), stops_(stops), begin_(Clock::now()) {
         if (!budget.seconds && !budget.steps && !budget.iterations)
             budget_.seconds = default_seconds;

@@ -1,7 +1,7 @@
-#include "solvers/cgp/room.hpp"
+#include "solvers/cgp/memory_estimate.hpp"
 
+#include "solvers/action_distribution/memory_estimate.hpp"
 #include "solvers/cgp/island.hpp"
-#include "solvers/choosing/room.hpp"
 #include "support/failure.hpp"
 #include "support/memory.hpp"
 
@@ -21,7 +21,7 @@ double bytes_of_environment(const rddl_simulator& simulator, const ProgramScope&
     double bytes = sizeof(float) * 4.0 * scope.observations.column_count();
     bytes += sizeof(float) * (1.0 * actions.column_count + actions.output_count());
     bytes += sizeof(double) + sizeof(std::uint64_t) + 2.0;  // reward, seed, causes
-    return bytes + bytes_of_choice(actions) + bytes_of_chooser(simulator, actions) +
+    return bytes + bytes_of_choice(actions) + bytes_of_distribution(simulator, actions) +
            static_cast<double>(bytes_per_environment(simulator));
 }
 
@@ -39,8 +39,8 @@ std::size_t most_remembered(const CgpOptions& options) {
     return static_cast<std::size_t>(std::clamp(fitting, 1.0, 0x1p20));
 }
 
-CgpRoom room_of(const rddl_simulator& simulator, const ProgramScope& scope,
-                const CgpOptions& options, std::int64_t islands) {
+CgpMemory memory_of(const rddl_simulator& simulator, const ProgramScope& scope,
+                    const CgpOptions& options, std::int64_t islands) {
     double environments = 0, lanes = 0;
     const auto add = [&](const EvaluatorSize& size) {
         const auto programs = static_cast<double>(size.programs),
@@ -54,29 +54,29 @@ CgpRoom room_of(const rddl_simulator& simulator, const ProgramScope& scope,
     const double genome = static_cast<double>(options.nodes) * sizeof(Node) +
                           sizeof(double) * 1.0 * options.constants + sizeof(Genome);
     const double made = static_cast<double>(options.generations) * candidates;
-    CgpRoom room;
-    room.environments =
+    CgpMemory memory;
+    memory.environments =
         static_cast<double>(islands) * (environments * bytes_of_environment(simulator, scope) +
                                         lanes * bytes_of_lane(scope, options));
     // Genomes, and programs that are ready to run, which the search for constants has twice.
-    room.programs =
+    memory.programs =
         static_cast<double>(islands) *
         (sizeof(Island) + 3 * candidates * genome +
          bytes_of_remembered * std::min(made, static_cast<double>(most_remembered(options))));
-    return room;
+    return memory;
 }
 
-void require_room(const rddl_simulator& simulator, const ProgramScope& scope,
-                  const CgpOptions& options, std::int64_t islands) {
-    const CgpRoom room = room_of(simulator, scope, options, islands);
+void require_memory(const rddl_simulator& simulator, const ProgramScope& scope,
+                    const CgpOptions& options, std::int64_t islands) {
+    const CgpMemory memory = memory_of(simulator, scope, options, islands);
     const auto limit = static_cast<double>(options.memory_limit);
-    if (room.all() <= limit) return;
+    if (memory.all() <= limit) return;
     throw Failure(
         fmt::format("CGP would take about {}, more than the limit of {}: {} for the environments "
                     "of {} programs, {} for the programs",
-                    memory_text(room.all()), memory_text(limit), memory_text(room.environments),
-                    (1 + std::int64_t{options.children}) * islands, memory_text(room.programs)),
-        room.environments > room.programs
+                    memory_text(memory.all()), memory_text(limit), memory_text(memory.environments),
+                    (1 + std::int64_t{options.children}) * islands, memory_text(memory.programs)),
+        memory.environments > memory.programs
             ? "try a smaller --lambda, --episodes or --islands, or a larger --memory-limit"
             : "try a smaller --cols, --lambda or --islands, or a larger --memory-limit");
 }

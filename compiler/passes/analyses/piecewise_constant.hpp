@@ -15,7 +15,7 @@
 
 namespace rddlc::passes {
 
-struct Pieces {
+struct PiecewiseConstant {
     ir::NodeId number;              // Int or Real; depends on no variable of the expression
     std::vector<ir::Value> breaks;  // where the expression may change; sorted, each once
     // The same for numbers that are Program::real, compared with constants that are: sorted.
@@ -31,7 +31,8 @@ bool compares_one_number(const ir::Builder& builder, ir::NodeId id);
 
 // Nothing if the expression reads anything else that is not constant, if it may fault or if there
 // are no breaks or too many.
-std::optional<Pieces> pieces_of(const ir::Builder& builder, const ir::Evaluator& evaluator,
-                                ir::NodeId id);
+std::optional<PiecewiseConstant> piecewise_constant_of(const ir::Builder& builder,
+                                                       const ir::Evaluator& evaluator,
+                                                       ir::NodeId id);
 
 }  // namespace rddlc::passes

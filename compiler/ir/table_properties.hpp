@@ -1,4 +1,4 @@
-// Facts about the values of constant tables, for the nodes that read them.
+// Properties about the values of constant tables, for the nodes that read them.
 #pragma once
 
 #include "ir/ir.hpp"
@@ -13,7 +13,7 @@ namespace rddlc::ir {
 std::optional<Range> range_of(const Table& values);
 
 // Found out when it is first asked for, and then known: many nodes read the same table.
-class TableFacts {
+class TableProperties {
   public:
     // The range of constant buffers, whose values do not change while this lives. More may be
     // added.
@@ -26,14 +26,14 @@ class TableFacts {
     bool has_negative_zero(const Program& program, BufferId table);
 
   private:
-    struct Facts {
+    struct Properties {
         std::optional<std::optional<Range>> range;
         std::optional<double> longest_row, most_ones;
         std::optional<bool> has_negative_zero;
     };
-    Facts& of(BufferId table);
+    Properties& of(BufferId table);
 
-    std::vector<Facts> facts_;  // by BufferId::index
+    std::vector<Properties> properties_;  // by BufferId::index
 };
 
 }  // namespace rddlc::ir
