@@ -87,10 +87,10 @@ class Collector {
 
         Constraint constraint{reference->fluent,           {},         op,
                               lowering_.lower(limit_side), variables_, span};
-        if (!builder_.facts(constraint.limit).uniform) return;
+        if (!builder_.properties(constraint.limit).uniform) return;
         for (const model::Expr& argument : reference->arguments) {
             constraint.indices.push_back(lowering_.lower(argument));
-            if (!builder_.facts(constraint.indices.back()).uniform) return;
+            if (!builder_.properties(constraint.indices.back()).uniform) return;
         }
         constraints_.push_back(std::move(constraint));
     }

@@ -37,7 +37,7 @@ std::vector<ir::VariableId> variables_of(const ir::Builder& builder, const ir::N
                                          const ir::Place& place) {
     std::set<ir::VariableId> variables;
     for (const ir::NodeId operand : ir::operands_of(node)) {
-        const auto& free = builder.facts(operand).free_variables;
+        const auto& free = builder.properties(operand).free_variables;
         if (operand != place.index) variables.insert(free.begin(), free.end());
     }
     if (const auto bound = ir::bound_variable(node)) variables.erase(*bound);
@@ -45,7 +45,7 @@ std::vector<ir::VariableId> variables_of(const ir::Builder& builder, const ir::N
 }
 
 double work_for(const ir::Builder& builder, const Suspect& suspect) {
-    double work = builder.facts(suspect.node).cost;
+    double work = builder.properties(suspect.node).cost;
     for (const ir::VariableId variable : suspect.variables)
         work *= static_cast<double>(builder.program()[variable].size);
     return work;
@@ -58,7 +58,7 @@ std::optional<Suspect> suspect_at(const ir::Builder& builder, ir::NodeId id) {
     const std::optional<ir::Place> place = ir::place_of(node);
     if (!place || std::holds_alternative<ir::Fault>(node.form)) return std::nullopt;
     const auto is_fixed = [&](ir::NodeId operand) {
-        return builder.facts(operand).uniform;
+        return builder.properties(operand).uniform;
     };
     if (!std::ranges::all_of(ir::operands_of(node), is_fixed)) return std::nullopt;
     Suspect suspect{id, program[place->site], variables_of(builder, node, *place)};

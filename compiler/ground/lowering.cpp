@@ -12,8 +12,8 @@
 namespace rddlc::grounding {
 namespace {
 
-// The limit in operations (ir::Facts). Passes name values that are used several times; this is for
-// nested products, which would grow exponentially until then.
+// The limit in operations (ir::Properties). Passes name values that are used several times; this is
+// for nested products, which would grow exponentially until then.
 constexpr double largest_repeated_cost = 200;
 // Selects inside each other that a 'switch' becomes.
 constexpr std::size_t longest_chain = 512;
@@ -165,7 +165,7 @@ ir::NodeId Lowering::lower_as(const model::Expr& expr, ir::Scalar type) {
 
 std::optional<Range> Lowering::range_of_reals(ir::NodeId value) const {
     if (program_[value].type != ir::Scalar::Real) return std::nullopt;
-    return builder_.facts(value).range;
+    return builder_.properties(value).range;
 }
 
 ir::NodeId Lowering::lower_lazily(const model::Expr& expr) {
@@ -245,7 +245,7 @@ ir::NodeId Lowering::connective(const model::Apply& form) {
         right_first ? lower_lazily(form.operands.front()) : lower(form.operands.front());
     const ir::NodeId right =
         right_first ? lower(form.operands.back()) : lower_lazily(form.operands.back());
-    if (right_first && builder_.facts(left).may_fault) {
+    if (right_first && builder_.properties(left).may_fault) {
         return builder_.apply(form.op, {right, left});
     }
     return builder_.apply(form.op, {left, right});
@@ -253,15 +253,16 @@ ir::NodeId Lowering::connective(const model::Apply& form) {
 
 // Does multiplying by it leave 0 and -0 as they are, without a fault?
 bool Lowering::keeps_zeros(ir::NodeId factor) const {
-    const ir::Facts& facts = builder_.facts(factor);
-    if (facts.may_fault) return false;
+    const ir::Properties& properties = builder_.properties(factor);
+    if (properties.may_fault) return false;
     if (program_[factor].type == ir::Scalar::Int) return true;
-    return facts.finite && facts.never_negative_zero && facts.range && facts.range->lower >= 0;
+    return properties.finite && properties.never_negative_zero && properties.range &&
+           properties.range->lower >= 0;
 }
 
-// Semantics 6.2: 0 * x is 0 whatever x is, and x is not evaluated, if the first factor is the same for all objects
-// in scope. Where it is not, that depends on the other objects in pyRDDLGym; there it is an
-// ordinary product here.
+// Semantics 6.2: 0 * x is 0 whatever x is, and x is not evaluated, if the first factor is the same
+// for all objects in scope. Where it is not, that depends on the other objects in pyRDDLGym; there
+// it is an ordinary product here.
 ir::NodeId Lowering::product(const model::Apply& form) {
     const bool right_first = is_simple(form.operands.back());
     const model::Expr& first_expr = right_first ? form.operands.back() : form.operands.front();
@@ -270,7 +271,7 @@ ir::NodeId Lowering::product(const model::Apply& form) {
     const bool is_scalar = is_fixed_in_scope(first);
     const ir::NodeId other = is_scalar ? lower_lazily(other_expr) : lower(other_expr);
     const bool is_plain =
-        !is_scalar || excludes_zero(builder_.facts(first).range) || keeps_zeros(other);
+        !is_scalar || excludes_zero(builder_.properties(first).range) || keeps_zeros(other);
     if (!is_plain) return product_unless_zero(first, other, right_first);
     const ir::NodeId left = right_first ? other : first;
     const ir::NodeId right = right_first ? first : other;
@@ -289,7 +290,7 @@ ir::NodeId Lowering::product_unless_zero(ir::NodeId first, ir::NodeId other, boo
     const auto test = [&](ir::NodeId id) {
         return builder_.apply(Operator::Equal, {id, zero});
     };
-    const bool is_large = builder_.facts(first).cost > largest_repeated_cost;
+    const bool is_large = builder_.properties(first).cost > largest_repeated_cost;
     const auto* select = std::get_if<ir::Select>(&program_[first].form);
     if (is_large && may_be_named(first)) {
         first = named(first);
@@ -311,13 +312,13 @@ ir::NodeId Lowering::product_unless_zero(ir::NodeId first, ir::NodeId other, boo
 // An expression that may fault keeps its place in a lazy branch, and one that the instance fixes
 // stays an expression that bounds and passes can evaluate.
 bool Lowering::may_be_named(ir::NodeId value) const {
-    const ir::Facts& facts = builder_.facts(value);
-    return scope_.empty() && !facts.uniform && (!facts.may_fault || branches_ == 0);
+    const ir::Properties& properties = builder_.properties(value);
+    return scope_.empty() && !properties.uniform && (!properties.may_fault || branches_ == 0);
 }
 
 // It has one value for all objects of the variables in scope.
 bool Lowering::is_fixed_in_scope(ir::NodeId value) const {
-    const auto& free = builder_.facts(value).free_variables;
+    const auto& free = builder_.properties(value).free_variables;
     return std::ranges::none_of(scope_, [&](ir::VariableId variable) {
         return std::ranges::binary_search(free, variable);
     });

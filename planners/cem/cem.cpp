@@ -86,10 +86,10 @@ Cem::Cem(const PlannerContext& context, const CemOptions& options)
     by_policy_.resize(lanes_);
 }
 
-Cem::Memory& Cem::memory_of(const Decision& decision) {
-    auto& memory = memories_[static_cast<std::size_t>(decision.place)];
+Cem::Memory& Cem::memory_of(const DecisionPoint& point) {
+    auto& memory = memories_[static_cast<std::size_t>(point.place)];
     if (!memory) memory.emplace(space_, Spread{options_.spread});
-    if (decision.step == 0 || memory->horizon == 0) {
+    if (point.step == 0 || memory->horizon == 0) {
         memory->horizon = options_.horizon.value_or(first_horizon);
         memory->distribution.restart(memory->horizon);
         memory->kept_count = 0;
@@ -129,7 +129,7 @@ void Cem::end_by_noop(Plan& plan, std::int64_t first, std::int64_t steps) const 
     fill_rows(plan.indices, begin, end, default_indices_);
 }
 
-void Cem::make_population(Memory& memory, const Decision& decision, RandomStream& stream,
+void Cem::make_population(Memory& memory, const DecisionPoint& point, RandomStream& stream,
                           BudgetMeter& meter) {
     std::size_t next = 0;
     const auto add = [&](Origin origin) -> Plan* {
@@ -143,7 +143,7 @@ void Cem::make_population(Memory& memory, const Decision& decision, RandomStream
             plan->indices = memory.kept[k].indices;
         }
     if (base_)
-        if (Plan* const plan = add(Origin::Policy)) record_policy(decision, *plan, meter);
+        if (Plan* const plan = add(Origin::Policy)) record_policy(point, *plan, meter);
     if (Plan* const plan = add(Origin::Noop)) end_by_noop(*plan, 0, steps_);
     if (Plan* const plan = add(Origin::Middle)) memory.distribution.middle(*plan);
     memory.distribution.prepare();
@@ -154,15 +154,14 @@ void Cem::make_population(Memory& memory, const Decision& decision, RandomStream
             *plan);
 }
 
-void Cem::record_policy(const Decision& decision, Plan& plan, BudgetMeter& meter) {
+void Cem::record_policy(const DecisionPoint& point, Plan& plan, BudgetMeter& meter) {
     const auto rows = static_cast<std::size_t>(steps_);
     end_by_noop(plan, 0, steps_);
-    recording_->begin(decision.batch, decision.place, std::span(streams_).first(1));
-    recorder_->begin(decision.episode, decision.step, decision.horizon,
-                     std::span(streams_).first(1));
+    recording_->begin(point.batch, point.place, std::span(streams_).first(1));
+    recorder_->begin(point.episode, point.step, point.horizon, std::span(streams_).first(1));
     constexpr std::uint8_t wanted[] = {1};
     for (std::size_t t = 0; t < rows && recording_->any_running(); ++t) {
-        recorder_->act(*recording_, wanted, actions_.data(), decision.stops);
+        recorder_->act(*recording_, wanted, actions_.data(), point.stops);
         records_.read(actions_.data(), rows_.data());
         read_action(space_, rows_.data(), plan.numbers.data() + t * default_numbers_.size(),
                     plan.indices.data() + t * default_indices_.size());
@@ -192,13 +191,13 @@ void Cem::write_actions(std::span<const std::uint32_t> plans, std::int64_t step)
     }
 }
 
-std::int64_t Cem::play(const Decision& decision, std::span<const std::uint32_t> plans,
+std::int64_t Cem::play(const DecisionPoint& point, std::span<const std::uint32_t> plans,
                        std::int64_t steps, BudgetMeter& meter) {
     const auto columns = static_cast<std::size_t>(space_.column_count);
     const std::size_t size = records_.record_size();
     const bool has_policy = std::ranges::find(by_policy_, 1) != by_policy_.end();
-    futures_.begin(decision.batch, decision.place, streams_);
-    if (has_policy) base_->begin(decision.episode, decision.step, decision.horizon, streams_);
+    futures_.begin(point.batch, point.place, streams_);
+    if (has_policy) base_->begin(point.episode, point.step, point.horizon, streams_);
     for (std::int64_t t = 0; t < steps && futures_.any_running(); ++t) {
         write_actions(plans, t);
         const bool needs_records = t == 0 || has_policy || space_.may_be_illegal;
@@ -206,7 +205,7 @@ std::int64_t Cem::play(const Decision& decision, std::span<const std::uint32_t> 
             for (std::size_t k = 0; k < lanes_; ++k)
                 records_.write(rows_.data() + k * columns, actions_.data() + k * size);
         if (has_policy) {
-            base_->act(futures_, by_policy_, actions_.data(), decision.stops);
+            base_->act(futures_, by_policy_, actions_.data(), point.stops);
             for (std::size_t k = 0; k < lanes_; ++k)
                 if (by_policy_[k])
                     records_.read(actions_.data() + k * size, rows_.data() + k * columns);
@@ -303,15 +302,15 @@ const std::byte* Cem::first_action(std::size_t plan) const {
     return firsts_.data() + plan * records_.record_size();
 }
 
-void Cem::decide(const Decision& decision, std::byte* action, Explanation* explanation) {
-    RandomStream stream(options_.seed, decision.episode, decision.step);
-    BudgetMeter meter(options_.budget, decision.stops);
-    Memory& memory = memory_of(decision);
+void Cem::decide(const DecisionPoint& point, std::byte* action, Explanation* explanation) {
+    RandomStream stream(options_.seed, point.episode, point.step);
+    BudgetMeter meter(options_.budget, point.stops);
+    Memory& memory = memory_of(point);
     const bool compares = simulator_.problem->stochastic || base_;
     const auto lanes = static_cast<std::int64_t>(lanes_);
     const auto comparison = [&](std::int64_t depth) {  // its steps
-        const bool has_tail = base_ && decision.left != no_end;
-        return compares ? lanes * (has_tail ? decision.left : depth) : 0;
+        const bool has_tail = base_ && point.left != no_end;
+        return compares ? lanes * (has_tail ? point.left : depth) : 0;
     };
     std::int64_t depth = 0;
     double seconds = 0;
@@ -319,10 +318,10 @@ void Cem::decide(const Decision& decision, std::byte* action, Explanation* expla
         const double before = meter.seconds();
         set_steps(memory.horizon);
         draw_streams(stream);
-        make_population(memory, decision, stream, meter);
+        make_population(memory, point, stream, meter);
         const std::int64_t affordable_steps = std::max<std::int64_t>(1, meter.steps_left() / lanes);
-        const std::int64_t wanted = std::min({decision.left, memory.horizon, affordable_steps});
-        const std::int64_t made = play(decision, plan_of_lane_, wanted, meter);
+        const std::int64_t wanted = std::min({point.left, memory.horizon, affordable_steps});
+        const std::int64_t made = play(point, plan_of_lane_, wanted, meter);
         if (made < wanted && depth > 0) {
             rank_kept(memory);
             break;
@@ -334,8 +333,8 @@ void Cem::decide(const Decision& decision, std::byte* action, Explanation* expla
         keep_best(memory);
         meter.add_iterations();
         seconds = meter.seconds() - before;
-        if (needs_more_steps(memory, decision.left)) {
-            memory.horizon = std::min({2 * memory.horizon, decision.left, longest_lookahead});
+        if (needs_more_steps(memory, point.left)) {
+            memory.horizon = std::min({2 * memory.horizon, point.left, longest_lookahead});
             memory.distribution.extend(memory.horizon);
             for (std::size_t k = 0; k < memory.kept_count; ++k)
                 end_by_noop(memory.kept[k], steps_, memory.horizon);
@@ -346,7 +345,7 @@ void Cem::decide(const Decision& decision, std::byte* action, Explanation* expla
                   static_cast<std::int64_t>(scenarios_)};
     if (compares && depth > 0 && !meter.is_late() && meter.steps_left() >= comparison(depth)) {
         steps_ = std::min(steps_, depth);
-        chosen = compare(decision, stream, meter);
+        chosen = compare(point, stream, meter);
         const auto place = std::ranges::find(order_, chosen.plan);
         std::rotate(order_.begin(), place, place + 1);
         keep_best(memory);

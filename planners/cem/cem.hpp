@@ -25,7 +25,7 @@ namespace rddlc::planners {
 class Cem : public Planner {
   public:
     Cem(const PlannerContext& context, const CemOptions& options);
-    void decide(const Decision& decision, std::byte* action, Explanation* explanation) override;
+    void decide(const DecisionPoint& point, std::byte* action, Explanation* explanation) override;
 
   private:
     enum class Origin { Kept, Policy, Noop, Middle, Sample };
@@ -44,24 +44,24 @@ class Cem : public Planner {
         std::int64_t trials;
     };
 
-    Memory& memory_of(const Decision& decision);
+    Memory& memory_of(const DecisionPoint& point);
     void set_steps(std::int64_t steps);
     void end_by_noop(Plan& plan, std::int64_t first, std::int64_t steps) const;
-    void make_population(Memory& memory, const Decision& decision, RandomStream& stream,
+    void make_population(Memory& memory, const DecisionPoint& point, RandomStream& stream,
                          BudgetMeter& meter);
-    void record_policy(const Decision& decision, Plan& plan, BudgetMeter& meter);
+    void record_policy(const DecisionPoint& point, Plan& plan, BudgetMeter& meter);
     // Plays lane k by the plan plans[k]; the steps that were made, fewer where time is up.
-    std::int64_t play(const Decision& decision, std::span<const std::uint32_t> plans,
+    std::int64_t play(const DecisionPoint& point, std::span<const std::uint32_t> plans,
                       std::int64_t steps, BudgetMeter& meter);
     void write_actions(std::span<const std::uint32_t> plans, std::int64_t step);
-    void play_tail(const Decision& decision, BudgetMeter& meter);
+    void play_tail(const DecisionPoint& point, BudgetMeter& meter);
     void draw_streams(RandomStream& stream);
     void rank();
     void rank_kept(const Memory& memory);
     void refit(Memory& memory);
     void keep_best(Memory& memory);
     bool needs_more_steps(const Memory& memory, std::int64_t left) const;
-    Choice compare(const Decision& decision, RandomStream& stream, BudgetMeter& meter);
+    Choice compare(const DecisionPoint& point, RandomStream& stream, BudgetMeter& meter);
     void note_candidates(Explanation& explanation, const Choice& chosen) const;
     const std::byte* first_action(std::size_t plan) const;
     void move_on(Memory& memory);

@@ -17,19 +17,19 @@ constexpr double doubt = 1;
 }  // namespace
 
 // After the plans comes what the policy does.
-void Cem::play_tail(const Decision& decision, BudgetMeter& meter) {
-    if (!base_ || decision.left == no_end) return;
+void Cem::play_tail(const DecisionPoint& point, BudgetMeter& meter) {
+    if (!base_ || point.left == no_end) return;
     std::ranges::fill(by_policy_, 1);
-    for (std::int64_t t = steps_; t < decision.left && futures_.any_running(); ++t) {
+    for (std::int64_t t = steps_; t < point.left && futures_.any_running(); ++t) {
         if (meter.is_late()) return;
-        base_->act(futures_, by_policy_, actions_.data(), decision.stops);
+        base_->act(futures_, by_policy_, actions_.data(), point.stops);
         futures_.step(actions_.data());
         meter.add_steps(futures_.stepped());
     }
 }
 
 // The best plans, no-op, the policy and the middle, with stream that none of them was chosen by.
-Cem::Choice Cem::compare(const Decision& decision, RandomStream& stream, BudgetMeter& meter) {
+Cem::Choice Cem::compare(const DecisionPoint& point, RandomStream& stream, BudgetMeter& meter) {
     compared_.assign(order_.begin(), order_.begin() + static_cast<std::ptrdiff_t>(
                                                           std::min(most_compared, population_)));
     for (std::size_t c = 0; c < population_; ++c)
@@ -48,8 +48,8 @@ Cem::Choice Cem::compare(const Decision& decision, RandomStream& stream, BudgetM
         streams_[k] = k % count == 0 ? stream.bits() : streams_[k - 1];
         if (by_policy_[k]) policy = k % count;
     }
-    const bool is_done = play(decision, compared_of_lane_, steps_, meter) == steps_;
-    if (is_done) play_tail(decision, meter);
+    const bool is_done = play(point, compared_of_lane_, steps_, meter) == steps_;
+    if (is_done) play_tail(point, meter);
     std::ranges::fill(by_policy_, 0);
     if (!is_done || meter.is_late()) return unsure;
 

@@ -19,7 +19,7 @@ namespace rddlc::planners {
 inline constexpr std::int64_t no_end = std::numeric_limits<std::int64_t>::max();
 
 // The environment that an action is wanted for.
-struct Decision {
+struct DecisionPoint {
     const rddl_batch* batch;
     std::int64_t place;  // in the batch
     std::int64_t episode;
@@ -54,7 +54,8 @@ class Planner {
     virtual ~Planner() = default;
     // Writes the action record. Where step is 0 the episode of this place begins. Explanation are
     // added to `explanation`, unless it is NULL.
-    virtual void decide(const Decision& decision, std::byte* action, Explanation* explanation) = 0;
+    virtual void decide(const DecisionPoint& point, std::byte* action,
+                        Explanation* explanation) = 0;
 };
 
 // What every planner is made with.

@@ -77,7 +77,7 @@ Entry entry(const std::string& name, const std::string& summary, bool needs_poli
 const std::vector<Entry>& entries() {
     static const std::vector<Entry> all = {
         entry<CemOptions, Cem>("cem",
-                               "the best of many plans of actions, sampled again and again; for "
+                               "the best of many plans, sampled again and again; for "
                                "reals, ints, bools and objects",
                                false, cem_option_table),
         entry<RolloutOptions, Rollout>("rollout",
@@ -164,19 +164,19 @@ class PlanningActor {
         for (std::size_t i = 0; i < decision.running.size(); ++i) {
             if (!decision.running[i]) continue;
             if (solvers::is_stopped(decision.stops)) return;
-            Decision decision{decision.batch,
-                              static_cast<std::int64_t>(i),
-                              decision.episodes[i],
-                              decision.steps[i],
-                              no_end,
-                              decision.horizon,
-                              decision.stops};
-            if (horizon > 0) decision.left = std::max<std::int64_t>(1, horizon - decision.step);
+            DecisionPoint point{decision.batch,
+                                static_cast<std::int64_t>(i),
+                                decision.episodes[i],
+                                decision.steps[i],
+                                no_end,
+                                decision.horizon,
+                                decision.stops};
+            if (horizon > 0) point.left = std::max<std::int64_t>(1, horizon - point.step);
             if (base_)
-                decision.base_action =
+                point.base_action =
                     base_actions_.data() + i * static_cast<std::size_t>(problem.action_size);
-            Explanation explanation{decision.episode, decision.step};
-            planner_->decide(decision,
+            Explanation explanation{point.episode, point.step};
+            planner_->decide(point,
                              decision.actions + i * static_cast<std::size_t>(problem.action_size),
                              settings_.explain ? &explanation : nullptr);
             if (settings_.explain) settings_.explain(explanation);

@@ -35,20 +35,20 @@ Rollout::Rollout(const PlannerContext& context, const RolloutOptions& options)
       policy_(simulator_, *context.base, static_cast<std::int64_t>(continuations_.lanes())),
       random_(simulator_, solvers::random_policy(simulator_, options.seed), options.actions) {}
 
-void Rollout::find_candidates(const Decision& decision, RandomStream& stream) {
+void Rollout::find_candidates(const DecisionPoint& point, RandomStream& stream) {
     candidates_.clear();
-    candidates_.push_back({decision.base_action});
+    candidates_.push_back({point.base_action});
     const auto add = [&](const std::byte* action) {
         for (const Candidate& known : candidates_)
             if (std::memcmp(known.action, action, action_size_) == 0) return;
         candidates_.push_back({action});
     };
     if (actions_) {
-        actions_->find_legal(decision.batch, decision.place, legal_);
+        actions_->find_legal(point.batch, point.place, legal_);
         for (std::size_t a = 0; a < actions_->count(); ++a)
             if (legal_[a]) add(actions_->record(a));
     } else {
-        draw_actions(decision, stream);
+        draw_actions(point, stream);
         for (std::size_t a = 0; a * action_size_ < drawn_.size(); ++a)
             add(drawn_.data() + a * action_size_);
     }
@@ -57,10 +57,10 @@ void Rollout::find_candidates(const Decision& decision, RandomStream& stream) {
 }
 
 // No-op, random actions, and mixtures of these with the policy's.
-void Rollout::draw_actions(const Decision& decision, RandomStream& stream) {
+void Rollout::draw_actions(const DecisionPoint& point, RandomStream& stream) {
     const auto count = static_cast<std::size_t>(options_.actions);
     if (!sampling_) {
-        sampling_.emplace(simulator_, options_.actions, decision.horizon);
+        sampling_.emplace(simulator_, options_.actions, point.horizon);
         repair_ = solvers::RepairBuffers(simulator_, space_, options_.actions);
         drawn_.resize(count * action_size_);
         rows_.resize(count * static_cast<std::size_t>(space_.column_count));
@@ -68,11 +68,11 @@ void Rollout::draw_actions(const Decision& decision, RandomStream& stream) {
     }
     streams_.clear();
     for (std::size_t k = 0; k < count; ++k) streams_.push_back(stream.bits());
-    sampling_->begin(decision.batch, decision.place, streams_);
-    random_.begin(decision.episode, decision.step, decision.horizon, streams_);
+    sampling_->begin(point.batch, point.place, streams_);
+    random_.begin(point.episode, point.step, point.horizon, streams_);
     const std::vector<std::uint8_t> all(count, 1);
-    random_.act(*sampling_, all, drawn_.data(), decision.stops);
-    records_.read(decision.base_action, base_row_.data());
+    random_.act(*sampling_, all, drawn_.data(), point.stops);
+    records_.read(point.base_action, base_row_.data());
     constexpr float shares[] = {1, 0.5f, 0.2f, 0.05f};  // of what is random
     for (std::size_t k = 0; k < count; ++k) {
         float* const row = rows_.data() + k * base_row_.size();
@@ -95,8 +95,8 @@ void Rollout::draw_actions(const Decision& decision, RandomStream& stream) {
 }
 
 // All that are left, each with the same draws of stream: as many as there are lanes for.
-bool Rollout::try_all(const Decision& decision, RandomStream& stream, BudgetMeter& meter) {
-    const std::int64_t wanted = std::min(decision.left, options_.horizon.value_or(longest_rollout));
+bool Rollout::try_all(const DecisionPoint& point, RandomStream& stream, BudgetMeter& meter) {
+    const std::int64_t wanted = std::min(point.left, options_.horizon.value_or(longest_rollout));
     const auto left = static_cast<std::int64_t>(left_.size());
     const std::size_t lanes = continuations_.lanes();
     // Where there are more actions than lanes, one draw takes several batches.
@@ -109,7 +109,7 @@ bool Rollout::try_all(const Decision& decision, RandomStream& stream, BudgetMete
     for (std::size_t d = 0; d < draws; ++d) {
         const std::uint64_t draw = stream.bits();
         for (const std::size_t c : left_)
-            starts_.push_back({nullptr, decision.step, candidates_[c].action, depth, draw});
+            starts_.push_back({nullptr, point.step, candidates_[c].action, depth, draw});
     }
     values_.clear();
     for (std::size_t first = 0; first < starts_.size(); first += lanes) {
@@ -117,7 +117,7 @@ bool Rollout::try_all(const Decision& decision, RandomStream& stream, BudgetMete
             std::span(starts_).subspan(first, std::min(lanes, starts_.size() - first));
         // The first values are better than none, though they are of fewer steps.
         const bool is_first = candidates_.front().draws == 0 && starts_.size() <= lanes;
-        if (!continuations_.run(decision, some, policy_, meter) &&
+        if (!continuations_.run(point, some, policy_, meter) &&
             !(is_first && continuations_.depth() > 0))
             return false;
         for (std::size_t k = 0; k < some.size(); ++k) values_.push_back(continuations_.value(k));
@@ -159,16 +159,16 @@ std::size_t Rollout::best() const {
     return best;
 }
 
-void Rollout::decide(const Decision& decision, std::byte* action, Explanation* explanation) {
-    RandomStream stream(options_.seed, decision.episode, decision.step);
-    BudgetMeter meter(options_.budget, decision.stops);
-    find_candidates(decision, stream);
+void Rollout::decide(const DecisionPoint& point, std::byte* action, Explanation* explanation) {
+    RandomStream stream(options_.seed, point.episode, point.step);
+    BudgetMeter meter(options_.budget, point.stops);
+    find_candidates(point, stream);
     depth_ = 0;
     const double rounds = std::ceil(std::log2(static_cast<double>(candidates_.size())));
     for (double round = 1; candidates_.size() > 1; ++round) {
         bool is_done = true;
         do {
-            is_done = try_all(decision, stream, meter);
+            is_done = try_all(point, stream, meter);
             meter.add_iterations();
         } while (is_done && meter.has_room(1, 0) && meter.used() * rounds < round);
         if (!is_done || !meter.has_room(1, 0)) break;

@@ -21,7 +21,7 @@ namespace rddlc::planners {
 class Rollout : public Planner {
   public:
     Rollout(const PlannerContext& context, const RolloutOptions& options);
-    void decide(const Decision& decision, std::byte* action, Explanation* explanation) override;
+    void decide(const DecisionPoint& point, std::byte* action, Explanation* explanation) override;
 
   private:
     // An action, and by how much it was better than the policy's, draw by draw.
@@ -34,9 +34,9 @@ class Rollout : public Planner {
         double error() const;
     };
 
-    void find_candidates(const Decision& decision, RandomStream& stream);
-    void draw_actions(const Decision& decision, RandomStream& stream);
-    bool try_all(const Decision& decision, RandomStream& stream, BudgetMeter& meter);
+    void find_candidates(const DecisionPoint& point, RandomStream& stream);
+    void draw_actions(const DecisionPoint& point, RandomStream& stream);
+    bool try_all(const DecisionPoint& point, RandomStream& stream, BudgetMeter& meter);
     void halve();
     std::size_t best() const;
     void note_explanation(Explanation& explanation, std::size_t chosen,

@@ -23,16 +23,16 @@ Continuations::Continuations(const rddl_simulator& simulator, std::int64_t lanes
       first_rewards_(steps_.size()) {}
 
 // Lanes without a start are as the decision, and run no further.
-void Continuations::begin(const Decision& decision, std::span<const Start> starts) {
+void Continuations::begin(const DecisionPoint& point, std::span<const Start> starts) {
     bool is_elsewhere = false;
     for (std::size_t k = 0; k < lanes(); ++k) {
         const bool has_start = k < starts.size();
         streams_[k] = has_start ? starts[k].stream : 0;
-        steps_[k] = has_start ? starts[k].step : decision.step;
+        steps_[k] = has_start ? starts[k].step : point.step;
         wanted_[k] = has_start && !starts[k].action;
         is_elsewhere |= has_start && starts[k].state;
     }
-    futures_.begin(decision.batch, decision.place, streams_);
+    futures_.begin(point.batch, point.place, streams_);
     if (is_elsewhere) {
         solvers::require_done(simulator_, simulator_.get_state(futures_.batch(), 0,
                                                                futures_.count(), states_.data()));
@@ -49,12 +49,12 @@ void Continuations::begin(const Decision& decision, std::span<const Start> start
                     actions_.data() + k * action_size_);
 }
 
-bool Continuations::run(const Decision& decision, std::span<const Start> starts, BasePolicy& policy,
-                        BudgetMeter& meter) {
-    begin(decision, starts);
-    policy.begin(decision.episode, steps_, decision.horizon, streams_);
+bool Continuations::run(const DecisionPoint& point, std::span<const Start> starts,
+                        BasePolicy& policy, BudgetMeter& meter) {
+    begin(point, starts);
+    policy.begin(point.episode, steps_, point.horizon, streams_);
     for (depth_ = 0; futures_.any_running(); ++depth_) {
-        policy.act(futures_, depth_ == 0 ? wanted_ : all_wanted_, actions_.data(), decision.stops);
+        policy.act(futures_, depth_ == 0 ? wanted_ : all_wanted_, actions_.data(), point.stops);
         if (depth_ == 0) first_actions_ = actions_;
         if (depth_ % 4 == 0 && meter.is_late()) return false;
         futures_.step(actions_.data());

@@ -30,7 +30,7 @@ class Continuations {
 
     std::size_t lanes() const { return static_cast<std::size_t>(futures_.count()); }
     // At most `lanes` of them. False where time was up: then values are those of fewer steps.
-    bool run(const Decision& decision, std::span<const Start> starts, BasePolicy& policy,
+    bool run(const DecisionPoint& point, std::span<const Start> starts, BasePolicy& policy,
              BudgetMeter& meter);
 
     // Of start k: the discounted sum of rewards, the first of them, and the state after it.
@@ -49,7 +49,7 @@ class Continuations {
     std::int64_t depth() const { return depth_; }
 
   private:
-    void begin(const Decision& decision, std::span<const Start> starts);
+    void begin(const DecisionPoint& point, std::span<const Start> starts);
 
     const rddl_simulator& simulator_;
     std::size_t state_size_, action_size_;

@@ -17,7 +17,7 @@ constexpr std::size_t lock_draws = 64;
 
 // Each action of each new node is tried, and the policy plays on: the actions of a node with the
 // same stream. Or the policy alone plays on.
-bool Uct::value_new_nodes(const Decision& decision, RandomStream& stream, BudgetMeter& meter,
+bool Uct::value_new_nodes(const DecisionPoint& point, RandomStream& stream, BudgetMeter& meter,
                           std::size_t draws) {
     asked_.clear();
     unchanged_.assign(new_nodes_.size(), 0);
@@ -45,7 +45,7 @@ bool Uct::value_new_nodes(const Decision& decision, RandomStream& stream, Budget
                  asked_[k].stream});
         }
         if (!meter.has_room(static_cast<std::int64_t>(count), 0)) return false;
-        if (!continuations_.run(decision, starts_, policies_[policy_], meter) &&
+        if (!continuations_.run(point, starts_, policies_[policy_], meter) &&
             continuations_.depth() == 0)
             return false;
         take_values(first, count);
@@ -55,8 +55,7 @@ bool Uct::value_new_nodes(const Decision& decision, RandomStream& stream, Budget
         node.is_open = true;
         if (!by_policy) tree_.value_node(node);
         if (by_policy || unchanged_[n] < draws * node.edge_count) continue;
-        if (simulator_.problem->stochastic && !stays_unchanged(decision, n, stream, meter))
-            continue;
+        if (simulator_.problem->stochastic && !stays_unchanged(point, n, stream, meter)) continue;
         node.is_locked = true;
         node.value = 0;
         for (std::int64_t t = node.depth; t < depth_; ++t)
@@ -66,7 +65,7 @@ bool Uct::value_new_nodes(const Decision& decision, RandomStream& stream, Budget
 }
 
 // Whether it was no accident that no action has changed the state: each one is tried again, often.
-bool Uct::stays_unchanged(const Decision& decision, std::size_t n, RandomStream& stream,
+bool Uct::stays_unchanged(const DecisionPoint& point, std::size_t n, RandomStream& stream,
                           BudgetMeter& meter) {
     const NodeId id = new_nodes_[n];
     const Node& node = tree_.node(id);
@@ -80,7 +79,7 @@ bool Uct::stays_unchanged(const Decision& decision, std::size_t n, RandomStream&
                                stream.bits()});
         }
         if (!meter.has_room(static_cast<std::int64_t>(starts_.size()), 0) ||
-            !continuations_.run(decision, starts_, policies_[policy_], meter))
+            !continuations_.run(point, starts_, policies_[policy_], meter))
             return false;
         for (std::size_t k = 0; k < starts_.size(); ++k)
             if (!is_unchanged(id, n, k)) return false;

@@ -78,7 +78,7 @@ Uct::Uct(const PlannerContext& context, const UctOptions& options)
 }
 
 // Chooses the one with the greatest return from here on.
-void Uct::choose_policy(const Decision& decision, RandomStream& stream, BudgetMeter& meter) {
+void Uct::choose_policy(const DecisionPoint& point, RandomStream& stream, BudgetMeter& meter) {
     policy_ = 0;
     const std::size_t draws = std::min(policy_draws, continuations_.lanes());
     const auto cost = static_cast<std::int64_t>(draws * policies_.size()) * depth_;
@@ -89,7 +89,7 @@ void Uct::choose_policy(const Decision& decision, RandomStream& stream, BudgetMe
         starts_.push_back({nullptr, step_, nullptr, depth_, stream.bits()});
     double best = 0;
     for (std::size_t p = 0; p < policies_.size(); ++p) {
-        if (!continuations_.run(decision, starts_, policies_[p], meter)) return;
+        if (!continuations_.run(point, starts_, policies_[p], meter)) return;
         double sum = 0;
         for (std::size_t k = 0; k < draws; ++k) sum += continuations_.value(k);
         if (p > 0 && !(sum > best)) continue;
@@ -104,13 +104,13 @@ void Uct::add_edges(NodeId node, const rddl_batch* batch, std::int64_t place) {
         if (legal_[a]) tree_.add_edge(node, static_cast<std::uint32_t>(a));
 }
 
-bool Uct::open_root(const Decision& decision, RandomStream& stream, BudgetMeter& meter) {
+bool Uct::open_root(const DecisionPoint& point, RandomStream& stream, BudgetMeter& meter) {
     solvers::require_done(simulator_,
-                          simulator_.get_state(decision.batch, decision.place, 1, states_.data()));
+                          simulator_.get_state(point.batch, point.place, 1, states_.data()));
     tree_.clear();
     root_ = tree_.node_of(states_.data(), 0);
     new_nodes_.assign(1, root_);
-    add_edges(root_, decision.batch, decision.place);
+    add_edges(root_, point.batch, point.place);
     least_ = std::numeric_limits<double>::infinity();
     most_ = -least_;
     leaf_depth_ = depth_;
@@ -118,7 +118,7 @@ bool Uct::open_root(const Decision& decision, RandomStream& stream, BudgetMeter&
     if (!meter.has_room(edges, 0)) return false;
     const bool is_cheap =
         meter.has_room(10 * edges * depth_ * static_cast<std::int64_t>(root_draws), 0);
-    if (!value_new_nodes(decision, stream, meter, is_cheap ? root_draws : 1)) return false;
+    if (!value_new_nodes(point, stream, meter, is_cheap ? root_draws : 1)) return false;
     // Where the policy shows no difference between actions, the tree has to: it grows deeper with
     // leaves that are looked at more shortly.
     if (least_ == most_) leaf_depth_ = short_leaf;
@@ -151,9 +151,9 @@ EdgeId Uct::choose_edge(const Node& node, RandomStream& stream) {
     return chosen;
 }
 
-bool Uct::run_trials(const Decision& decision, RandomStream& stream, BudgetMeter& meter) {
+bool Uct::run_trials(const DecisionPoint& point, RandomStream& stream, BudgetMeter& meter) {
     for (std::uint64_t& each : streams_) each = stream.bits();
-    trees_.begin(decision.batch, decision.place, streams_);
+    trees_.begin(point.batch, point.place, streams_);
     new_nodes_.clear();
     for (Trial& trial : trials_) {
         trial.node = root_;
@@ -162,7 +162,7 @@ bool Uct::run_trials(const Decision& decision, RandomStream& stream, BudgetMeter
     }
     for (std::int64_t depth = 0; step_trials(stream, depth, meter); ++depth) {
     }
-    if (!new_nodes_.empty() && !value_new_nodes(decision, stream, meter, 1)) return false;
+    if (!new_nodes_.empty() && !value_new_nodes(point, stream, meter, 1)) return false;
     for (const Trial& trial : trials_) back_up(trial);
     meter.add_iterations(static_cast<std::int64_t>(trials_.size()));
     return true;
@@ -257,17 +257,17 @@ EdgeId Uct::best_edge() const {
     return chosen;
 }
 
-void Uct::decide(const Decision& decision, std::byte* action, Explanation* explanation) {
-    RandomStream stream(options_.seed, decision.episode, decision.step);
-    BudgetMeter meter(options_.budget, decision.stops);
-    step_ = decision.step;
-    depth_ = std::min(decision.left, options_.horizon.value_or(first_depth));
-    choose_policy(decision, stream, meter);
-    const bool is_open = open_root(decision, stream, meter);
+void Uct::decide(const DecisionPoint& point, std::byte* action, Explanation* explanation) {
+    RandomStream stream(options_.seed, point.episode, point.step);
+    BudgetMeter meter(options_.budget, point.stops);
+    step_ = point.step;
+    depth_ = std::min(point.left, options_.horizon.value_or(first_depth));
+    choose_policy(point, stream, meter);
+    const bool is_open = open_root(point, stream, meter);
     const Node& root = tree_.node(root_);
     if (is_open && !root.is_locked && root.edge_count > 1)
         while (meter.has_room(static_cast<std::int64_t>(trials_.size()) * depth_, 0) &&
-               run_trials(decision, stream, meter)) {
+               run_trials(point, stream, meter)) {
         }
     if (explanation && root.is_locked)
         explanation->note = "no action changes the state or the reward any more";

@@ -20,7 +20,7 @@ namespace rddlc::planners {
 class Uct : public Planner {
   public:
     Uct(const PlannerContext& context, const UctOptions& options);
-    void decide(const Decision& decision, std::byte* action, Explanation* explanation) override;
+    void decide(const DecisionPoint& point, std::byte* action, Explanation* explanation) override;
 
   private:
     // A trial on its way down.
@@ -35,19 +35,19 @@ class Uct : public Planner {
         std::vector<Hop> hops;
     };
 
-    void choose_policy(const Decision& decision, RandomStream& stream, BudgetMeter& meter);
-    bool open_root(const Decision& decision, RandomStream& stream, BudgetMeter& meter);
+    void choose_policy(const DecisionPoint& point, RandomStream& stream, BudgetMeter& meter);
+    bool open_root(const DecisionPoint& point, RandomStream& stream, BudgetMeter& meter);
     // The trials of one round; false where time was up, and nothing has changed but counts.
-    bool run_trials(const Decision& decision, RandomStream& stream, BudgetMeter& meter);
+    bool run_trials(const DecisionPoint& point, RandomStream& stream, BudgetMeter& meter);
     bool step_trials(RandomStream& stream, std::int64_t depth, BudgetMeter& meter);
     void follow(std::size_t k, RandomStream& stream, std::int64_t depth);
     EdgeId choose_edge(const Node& node, RandomStream& stream);
     // Its actions, where environment `place` of the batch stands.
     void add_edges(NodeId node, const rddl_batch* batch, std::int64_t place);
-    bool value_new_nodes(const Decision& decision, RandomStream& stream, BudgetMeter& meter,
+    bool value_new_nodes(const DecisionPoint& point, RandomStream& stream, BudgetMeter& meter,
                          std::size_t draws);
     void take_values(std::size_t first, std::size_t count);
-    bool stays_unchanged(const Decision& decision, std::size_t n, RandomStream& stream,
+    bool stays_unchanged(const DecisionPoint& point, std::size_t n, RandomStream& stream,
                          BudgetMeter& meter);
     bool is_unchanged(NodeId id, std::size_t n, std::size_t k) const;
     void back_up(const Trial& trial);

@@ -304,9 +304,9 @@ struct PpoTrainer::State {
                 std::nan("");
 
         moments.assign(3, {});
-        Moments &returns = moments[0], &errors = moments[1], &mending = moments[2];
-        mending.count = static_cast<double>(experience.count());
-        mending.sum = static_cast<double>(repaired_now - repaired);
+        Moments &returns = moments[0], &errors = moments[1], &repairs = moments[2];
+        repairs.count = static_cast<double>(experience.count());
+        repairs.sum = static_cast<double>(repaired_now - repaired);
         repaired = repaired_now;
         for (std::size_t s = 0; s < experience.count(); ++s) {
             returns.add(static_cast<double>(experience.returns[s]));
@@ -314,7 +314,7 @@ struct PpoTrainer::State {
                        static_cast<double>(experience.values[s]));
         }
         add_up(moments);
-        progress.repaired_rate = mending.sum / mending.count;
+        progress.repaired_rate = repairs.sum / repairs.count;
         const auto variance = [](const Moments& m) {
             return m.squares / m.count - m.sum / m.count * (m.sum / m.count);
         };

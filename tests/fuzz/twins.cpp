@@ -235,9 +235,9 @@ void expect_step(Comparison& comparison, const Shown& expected, const Shown& fou
     comparison.expect("the reward", expected.reward, found.reward);
 }
 
-double cost_of(const ir::Computation& computation, const std::vector<ir::Facts>& facts) {
+double cost_of(const ir::Computation& computation, const std::vector<ir::Properties>& properties) {
     double cost = 0;
-    for (const ir::NodeId root : ir::roots_of(computation)) cost += facts[root.index].cost;
+    for (const ir::NodeId root : ir::roots_of(computation)) cost += properties[root.index].cost;
     return cost;
 }
 
@@ -309,16 +309,17 @@ std::optional<std::string> difference(const ir::Program& program, const Story& e
 }
 
 double step_cost(const ir::Program& program) {
-    const std::vector<ir::Facts> facts = ir::all_facts(program);
-    double cost = cost_of(program.reward, facts);
+    const std::vector<ir::Properties> properties = ir::all_properties(program);
+    double cost = cost_of(program.reward, properties);
     for (const ir::Definition& definition : program.step) {
         double each = 1;
-        for (const ir::NodeId root : ir::roots_of(definition.body)) each += facts[root.index].cost;
+        for (const ir::NodeId root : ir::roots_of(definition.body))
+            each += properties[root.index].cost;
         cost += each * static_cast<double>(program[definition.target].count());
     }
     for (const auto* conditions :
          {&program.preconditions, &program.invariants, &program.terminations}) {
-        for (const ir::Computation& condition : *conditions) cost += cost_of(condition, facts);
+        for (const ir::Computation& condition : *conditions) cost += cost_of(condition, properties);
     }
     return cost;
 }
