@@ -3,6 +3,7 @@
 #include "ir/rewrite.hpp"
 #include "passes/analyses/constant_values.hpp"
 #include "passes/analyses/plain_definition.hpp"
+#include "passes/analyses/readers.hpp"
 
 #include <algorithm>
 #include <map>
@@ -21,7 +22,11 @@ constexpr double affordable_for_fluents = 1e8;
 class FluentTabulation {
   public:
     FluentTabulation(ir::Program& program, Report& report)
-        : program_(program), report_(report), builder_(program), evaluator_(program) {}
+        : program_(program),
+          report_(report),
+          builder_(program),
+          evaluator_(program),
+          readers_(readers_of_step(program)) {}
 
     // The tables, by the interm-fluents that they replace.
     std::map<ir::BufferId, ir::BufferId> run() && {
@@ -38,6 +43,7 @@ class FluentTabulation {
         const ir::Buffer& buffer = program_[definition.target];
         if (buffer.storage != ir::Storage::Scratch || buffer.count() > most_entries_of_fluent)
             return std::nullopt;
+        if (readers_[definition.target.index].places == 0) return std::nullopt;
         const auto plain = plain_definition(program_, definition);
         if (!plain) return std::nullopt;
         const ir::NodeId value = with_tables(plain->value);
@@ -82,6 +88,7 @@ class FluentTabulation {
     Report& report_;
     ir::Builder builder_;
     ir::Evaluator evaluator_;
+    std::vector<Readers> readers_;
     std::map<ir::BufferId, ir::BufferId> tables_;
     std::map<ir::NodeId, ir::NodeId> known_;  // expressions with tables in place of fluents
     double left_ = affordable_for_fluents;
