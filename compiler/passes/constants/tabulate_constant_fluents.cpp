@@ -1,5 +1,6 @@
 #include "passes/constants/tabulate_constant_fluents.hpp"
 
+#include "ir/evaluation_budget.hpp"
 #include "ir/rewrite.hpp"
 #include "passes/analyses/constant_values.hpp"
 #include "passes/analyses/plain_definition.hpp"
@@ -14,9 +15,6 @@ namespace {
 
 // Larger tables are left to the simulator: they make the emitted text long.
 constexpr std::int64_t most_entries_of_fluent = 100'000;
-// In operations (Properties::cost).
-constexpr double affordable_for_fluent = 1e7;
-constexpr double affordable_for_fluents = 1e8;
 
 // One after the other: what reads a constant fluent may be constant, too.
 class FluentTabulation {
@@ -49,9 +47,7 @@ class FluentTabulation {
         const ir::NodeId value = with_tables(plain->value);
         const ir::Properties& properties = builder_.properties(value);
         const double cost = properties.cost * static_cast<double>(buffer.count());
-        if (!properties.uniform || cost > affordable_for_fluent || cost > left_)
-            return std::nullopt;
-        left_ -= cost;
+        if (!properties.uniform || !budget_.pay(cost)) return std::nullopt;
 
         std::vector<ir::VariableId> variables;
         for (const auto& variable : plain->variables) {
@@ -91,7 +87,7 @@ class FluentTabulation {
     std::vector<Readers> readers_;
     std::map<ir::BufferId, ir::BufferId> tables_;
     std::map<ir::NodeId, ir::NodeId> known_;  // expressions with tables in place of fluents
-    double left_ = affordable_for_fluents;
+    ir::EvaluationBudget budget_;
 };
 
 }  // namespace
