@@ -3,6 +3,7 @@
 
 #include "ir/evaluation_budget.hpp"
 #include "ir/fold.hpp"
+#include "ir/reduction_nest.hpp"
 #include "ir/rewrite.hpp"
 #include "passes/aggregations/entry_tables.hpp"
 #include "passes/analyses/sparsity_pattern.hpp"
@@ -94,8 +95,8 @@ class Rewriting {
 
     ir::NodeId rebuilt(ir::NodeId id, Scope& scope) {
         ir::Node node = program_[id];
-        if (const auto* reduce = std::get_if<ir::Reduce>(&node.form)) {
-            if (const auto sparse = made_sparse(*reduce, scope)) return *sparse;
+        if (std::holds_alternative<ir::Reduce>(node.form)) {
+            if (const auto sparse = made_sparse(id, scope)) return *sparse;
         }
         ir::change_operands(node,
                             [&](ir::NodeId& operand) { operand = rewritten(operand, scope); });
@@ -167,46 +168,37 @@ class Rewriting {
 
     // ---------------------------------------------------------------------- aggregations
 
-    // Reductions right inside each other by the same operator, if their order does not matter.
-    struct Nest {
-        std::vector<ir::VariableId> variables;
-        ir::NodeId body;
-    };
-    Nest nest_of(const ir::Reduce& outermost) const {
-        Nest nest{{outermost.variable}, outermost.body};
-        while (program_[nest.body].type != ir::Scalar::Real) {
-            const auto* inner = std::get_if<ir::Reduce>(&program_[nest.body].form);
-            if (!inner || inner->op != outermost.op || inner->bounds) break;
-            nest.variables.push_back(inner->variable);
-            nest.body = inner->body;
-        }
-        return nest;
+    // Inner reductions belong to the nest if the order of terms does not matter.
+    std::optional<ir::ReductionNest> nest_of(ir::NodeId id) const {
+        const auto* const outermost = std::get_if<ir::Reduce>(&program_[id].form);
+        return ir::reduction_nest(program_, id, [&](const ir::Reduce& reduce) {
+            return &reduce == outermost || program_[id].type != ir::Scalar::Real;
+        });
     }
 
-    std::optional<ir::NodeId> made_sparse(const ir::Reduce& reduce, Scope& outer) {
+    std::optional<ir::NodeId> made_sparse(ir::NodeId id, Scope& outer) {
+        auto nest = nest_of(id);
+        if (!nest) return std::nullopt;
+        const ir::Reduce reduce = std::get<ir::Reduce>(program_[id].form);
         const auto neutral = ir::fold_empty(reduce.op, program_[reduce.body].type);
-        if (!neutral || reduce.bounds) return std::nullopt;
-        Nest nest = nest_of(reduce);
+        if (!neutral) return std::nullopt;
         std::vector<ir::NodeId> doubtful;
-        std::optional<Relation> found = pattern_.of(nest.body, *neutral);
+        std::optional<Relation> found = pattern_.of(nest->body, *neutral);
         if (!found && reduce.op == Reduction::Sum) found = pattern_.of_term(reduce.body, doubtful);
         if (!found || pattern_.depend(doubtful, reduce.variable)) return std::nullopt;
-        Scope scope = scope_for(*found, nest, outer);
+        Scope scope = scope_for(*found, nest->variables, outer);
         if (!doubtful.empty() && !lacks_entries_in_each_row(scope)) return std::nullopt;
         if (found->tuples.empty())
             return with_terms_left_out(builder_.constant(*neutral), doubtful, outer);
         // Objects that no table tells apart are left to loops inside.
-        for (auto variable = nest.variables.rbegin(); variable != nest.variables.rend();
-             ++variable) {
-            if (!found->has(*variable))
-                nest.body = builder_.reduce(reduce.op, *variable, nest.body);
-        }
+        std::erase_if(nest->variables, [&](ir::VariableId each) { return found->has(each); });
+        const ir::NodeId body = ir::reduced(builder_, nest->op, nest->variables, nest->body);
         if (scope.relation.count() > entries_left_) return std::nullopt;
-        if (!is_worthwhile(scope, nest.body)) return std::nullopt;
+        if (!is_worthwhile(scope, body)) return std::nullopt;
         entries_left_ -= scope.relation.count();
         ++report_["aggregations made sparse"];
-        name(scope, nest.body);
-        return with_terms_left_out(over_entries(reduce.op, nest.body, scope), doubtful, outer);
+        name(scope, body);
+        return with_terms_left_out(over_entries(nest->op, body, scope), doubtful, outer);
     }
 
     // A term that is left out is zero times each of these: it is nan where one is not finite. Else
@@ -233,16 +225,17 @@ class Rewriting {
         });
     }
 
-    Scope scope_for(const Relation& found, const Nest& nest, Scope& outer) {
+    Scope scope_for(const Relation& found, const std::vector<ir::VariableId>& variables,
+                    Scope& outer) {
         Scope scope{.outer = &outer};
         std::vector<Axis> axes;
         std::ranges::remove_copy_if(found.axes, std::back_inserter(axes), [&](const Axis& axis) {
-            return std::ranges::find(nest.variables, axis.variable) != nest.variables.end();
+            return std::ranges::find(variables, axis.variable) != variables.end();
         });
         scope.row_axes = axes.size();
         scope.has_row_an_entry = outer.outer && std::ranges::is_permutation(axes, outer.axes());
         if (scope.has_row_an_entry) axes.assign(outer.axes().begin(), outer.axes().end());
-        for (const ir::VariableId variable : nest.variables) {
+        for (const ir::VariableId variable : variables) {
             if (found.has(variable)) axes.push_back({variable, program_[variable].size});
         }
         scope.relation = ordered(found, std::move(axes));
