@@ -15,7 +15,7 @@
 
 namespace rddlc {
 
-// What a pass works on; the folder that it stands in.
+// The part of a program that a pass works on; also the folder that it stands in.
 enum class Phase : std::uint8_t { Constants, Arithmetic, Aggregations, Sharing, Lanes };
 std::string_view name_of(Phase phase);  // "constants"
 
@@ -27,7 +27,7 @@ struct PassDescription {
     std::string_view because;             // why it stands where it stands
     bool only_fast_math;                  // runs only with PassOptions::fast_math
 };
-// In the order in which they run first; each once.
+// The passes in the order in which they run first; each once.
 std::vector<PassDescription> all_passes();
 // The pipeline as a text: a paragraph for each pass.
 std::string pipeline_text();

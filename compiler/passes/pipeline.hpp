@@ -28,7 +28,7 @@ struct Pass {
     constexpr bool has(Trait trait) const { return (traits & trait) != 0; }
 };
 
-// In the order in which they run. A pass may stand there several times.
+// The passes in the order in which they run. A pass may stand there several times.
 std::span<const Pass> pipeline();
 
 }  // namespace rddlc::passes

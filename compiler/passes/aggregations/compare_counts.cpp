@@ -11,7 +11,7 @@
 namespace rddlc::passes {
 namespace {
 
-// The nest of a node, if that is a reduction by this operator and its body none at all.
+// The nest of a node that is a reduction by this operator. Its body must not be a reduction.
 std::optional<ir::ReductionNest> whole_nest(const ir::Program& program, ir::NodeId id,
                                             Reduction op) {
     auto nest = ir::reduction_nest(program, id);
@@ -45,7 +45,7 @@ class Comparing {
     }
 
   private:
-    // By what they stand for.
+    // The keys are the nodes that the comparisons replace.
     std::map<ir::NodeId, ir::NodeId> comparisons_below(ir::NodeId root) {
         std::set<ir::NodeId> below;
         collect(root, below);

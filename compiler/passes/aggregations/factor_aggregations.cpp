@@ -61,7 +61,7 @@ class Factoring {
                     : apply->op == (op == Reduction::ForAll ? Operator::Or : Operator::And);
             if (splits) return all(apply->operands);
         }
-        // What product() makes of a condition and a number.
+        // product() makes this of a condition and a number.
         const auto* select = std::get_if<ir::Select>(&node.form);
         if (select && op == Reduction::Sum && is_zero(select->else_value)) {
             return all({select->condition, select->then_value});
@@ -71,8 +71,8 @@ class Factoring {
         factors.push_back(id);
     }
 
-    // For one variable: the factors that depend on it become an aggregation of their own, which is
-    // a factor of the others. True if some part of the nest then depends on less.
+    // Takes out one variable: the factors that depend on it become an aggregation of their own,
+    // which is a factor of the others. True if some part of the nest then depends on less.
     bool take_out_one(FactoredNest& rest, const FactoredNest& whole) {
         for (auto variable = rest.variables.begin(); variable != rest.variables.end(); ++variable) {
             Factors inside, outside;

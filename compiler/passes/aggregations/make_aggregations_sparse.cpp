@@ -16,7 +16,7 @@
 namespace rddlc::passes {
 namespace {
 
-// What looking up an entry costs, in operations.
+// Operations of looking up an entry.
 constexpr double cost_of_entry = 3;
 // A loop over all objects is fine if it costs no more than this.
 constexpr double cheap_loop = 12;
@@ -355,8 +355,8 @@ class Rewriting {
         return height + (std::holds_alternative<ir::Reduce>(program_[id].form) ? 1 : 0);
     }
 
-    // By the table of bools that tells entries apart, or the only table that does; else by the
-    // fluent that is computed.
+    // The name comes from the table of bools that tells entries apart, or from the only table that
+    // does, or else from the fluent that is computed.
     void name(Scope& scope, ir::NodeId body) const {
         std::set<ir::BufferId> tables;
         collect_tables(body, scope, tables);

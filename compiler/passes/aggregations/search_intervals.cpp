@@ -14,7 +14,7 @@
 namespace rddlc::passes {
 namespace {
 
-// What costs less than this many times a search stays as it is.
+// An expression that costs less than this many searches stays as it is.
 constexpr double worth_a_search = 2;
 
 // The values of an expression for numbers from all pieces.

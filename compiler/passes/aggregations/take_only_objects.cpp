@@ -28,7 +28,7 @@ class Indexing {
         ir::Node node = program_[id];
         ir::change_operands(node, [&](ir::NodeId& operand) { operand = rewritten(operand); });
         ir::NodeId result = builder_.rebuild(node);
-        // What is left may be an aggregation to which this applies again.
+        // The result may be an aggregation to which this applies again.
         if (const auto indexed = indexed_directly(result)) result = rewritten(*indexed);
         return done_[id] = result;
     }
@@ -51,7 +51,7 @@ class Indexing {
 
     // ------------------------------------------------------------------------- the nest
 
-    // Without the variable of the object that is taken.
+    // The inner variables are those without the variable of the object that is taken.
     static std::span<const ir::VariableId> inner(const ir::ReductionNest& nest) {
         return std::span(nest.variables).subspan(1);
     }
@@ -66,11 +66,11 @@ class Indexing {
         return ir::reduced(builder_, nest.op, inner(nest), body);
     }
 
-    // What the nest is, given the object.
+    // The value of the nest, given the object.
     ir::NodeId taken(const ir::ReductionNest& nest, ir::VariableId variable,
                      const Condition& condition, const OnlyObject& object,
                      const ir::Value& neutral) {
-        // What may fault is evaluated in any case: then the condition is tested in its place.
+        // A body that may fault is evaluated in any case, so the condition is tested in its place.
         const bool in_place = builder_.properties(nest.body).may_fault;
         const ir::NodeId exists = in_place ? object.exists : builder_.constant(true);
         std::map<ir::NodeId, ir::NodeId> known;

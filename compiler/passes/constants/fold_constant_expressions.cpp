@@ -14,7 +14,8 @@ bool is_known(const ir::Node& node, const ir::Properties& properties) {
            properties.free_variables.empty() && !std::holds_alternative<ir::Constant>(node.form);
 }
 
-// By NodeId::index. Only the outermost known expressions matter: what is inside goes with them.
+// The values by NodeId::index. Only the outermost known expressions matter: their parts go with
+// them.
 std::vector<std::optional<ir::Value>> known_values(const ir::Program& program) {
     std::vector<std::optional<ir::Value>> values(program.nodes.size());
     const std::vector<ir::Properties> properties = ir::all_properties(program);

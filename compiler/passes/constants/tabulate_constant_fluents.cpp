@@ -16,7 +16,8 @@ namespace {
 // Larger tables are left to the simulator: they make the emitted text long.
 constexpr std::int64_t most_entries_of_fluent = 100'000;
 
-// One after the other: what reads a constant fluent may be constant, too.
+// Visits one definition after the other: a fluent that reads a constant fluent may also be
+// constant.
 class FluentTabulation {
   public:
     FluentTabulation(ir::Program& program, Report& report)
@@ -36,7 +37,7 @@ class FluentTabulation {
     }
 
   private:
-    // Of a definition that fills an interm-fluent with what the instance fixes.
+    // The values of an interm-fluent that the instance fixes; nothing for other definitions.
     std::optional<std::vector<ir::Value>> known_values(const ir::Definition& definition) {
         const ir::Buffer& buffer = program_[definition.target];
         if (buffer.storage != ir::Storage::Scratch || buffer.count() > most_entries_of_fluent)

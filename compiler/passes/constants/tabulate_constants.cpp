@@ -25,7 +25,7 @@ class ConstantTabulation {
           seen_(program.nodes.size()),
           evaluator_(std::as_const(program)) {}
 
-    // By the node that they replace; its free variables are their dimensions.
+    // A table for the node that it replaces; the node's free variables are its dimensions.
     struct Table {
         std::vector<ir::VariableId> variables;
         ir::Buffer buffer;
@@ -70,7 +70,7 @@ class ConstantTabulation {
                                                   (properties.cost - 2) * entries_for_an_operation);
     }
 
-    // Of a table already: the indices are no more than arithmetic.
+    // It is an element of a table already: the indices are no more than arithmetic.
     bool is_element(ir::NodeId id) const {
         const auto* load = std::get_if<ir::Load>(&program_[id].form);
         return load && std::ranges::none_of(load->indices, [&](ir::NodeId index) {
@@ -85,7 +85,7 @@ class ConstantTabulation {
         return entries;
     }
 
-    // In entries; 0 if the expression reads none.
+    // The size in entries; 0 if the expression reads no table.
     std::int64_t largest_table_in(ir::NodeId id) const {
         std::int64_t largest = 0;
         if (const auto* load = std::get_if<ir::Load>(&program_[id].form))
