@@ -21,6 +21,8 @@ Command train_command();
 Command export_command();
 Command plot_command();
 Command replay_command();
+Command serve_command();
+Command play_command();
 Command render_command();
 Command bench_command();
 Command verify_command();
