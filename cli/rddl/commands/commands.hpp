@@ -21,6 +21,7 @@ Command train_command();
 Command export_command();
 Command plot_command();
 Command replay_command();
+Command solve_command();
 Command serve_command();
 Command play_command();
 Command render_command();
