@@ -67,8 +67,10 @@ struct TrainingResult {
     bool has_best = false;  // false where an interrupt came before the first evaluation
     double best_return = 0, best_length = 0;  // mean of the best evaluation
     std::string best_policy;                  // of that evaluation, as its file holds it
-    std::int64_t episodes = 0, faulted = 0;   // of the last evaluation
-    std::string first_fault;                  // of all of them; its message
+    // A sentence where that policy is no better than no-op or random actions, else "".
+    std::string no_better;
+    std::int64_t episodes = 0, faulted = 0;  // of the last evaluation
+    std::string first_fault;                 // of all of them; its message
     std::string not_finite;  // where the last evaluation's return is not: what has made it so
 };
 

@@ -1,4 +1,5 @@
-// Messages of the protocol of IPPC 2011 to 2018: how they are cut out of streams, and their numbers.
+// Messages of the protocol of IPPC 2011 to 2018: how they are cut out of streams, and their
+// numbers.
 #include "protocol/protocol_fluents.hpp"
 #include "protocol/xml.hpp"
 #include "support/base64.hpp"

@@ -90,6 +90,7 @@ Solution solve(const ProblemFiles& files, const LoadOptions& load, const SolveOp
                 optimum_of(model, limits.horizon, simulator.problem->discount, limits.threads),
                 model.states.records(), model.actions};
     } catch (const Failure& failure) {
+        if (is_interrupted()) throw;
         throw Failure(fmt::format("cannot solve {}: {} ({})", name_of(*simulator.problem),
                                   failure.what(), possible_text(size.possible_states)),
                       failure.hint, failure.status);

@@ -69,6 +69,7 @@ ExitStatus run_training(const TrainOptions& options, const rddl_simulator& simul
     if (!training.quiet && !result.not_finite.empty())
         tell("rddl: warning: the return of the last evaluation is not finite: {}\n",
              result.not_finite);
+    if (!training.quiet && !result.no_better.empty()) tell("rddl: warning: {}\n", result.no_better);
     if (!result.interrupted) return success;
     if (!ranks.is_first()) return interrupted_status();
     tell("rddl: interrupted; 'rddl train {} ... --out {} --resume' continues it\n", trainee.solver,
