@@ -50,6 +50,7 @@ class Training {
         begin_ = last_shown_ = last_saved_ = Clock::now();
         if (options_.ranks.is_first())
             baselines_ = baselines(simulator_, evaluation_options(), options_.stops);
+        if (!options_.resumes && trainee_.prepare) prepare();
         if (owes_evaluation_) finish_update();
         bool stops = result_.reached;
         while (!stops && !trainee_.done() && update()) {
@@ -80,6 +81,16 @@ class Training {
     }
 
   private:
+    // What it has learned before the first update counts as its first policy.
+    void prepare() {
+        const std::string said = trainee_.prepare();
+        if (options_.stops && options_.stops())
+            throw Failure("interrupted before the first update");
+        evaluate();
+        if (!options_.quiet && options_.ranks.is_first())
+            tell("{}; the policy that imitates it {:.6g}\n", said, last_return_);
+    }
+
     std::filesystem::path file(const char* name) const { return options_.folder / name; }
 
     // Each rank reads the files of the problem by itself.

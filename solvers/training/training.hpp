@@ -26,10 +26,12 @@ using Settings = std::vector<std::pair<std::string, std::string>>;
 
 // A solver at work, as the training sees it.
 struct Trainee {
-    std::string solver;                   // "ppo"
-    Settings settings;                    // a resumed run has the same
-    std::string note;                     // what it has chosen that users may not expect, or ""
-    bool ends_early = false;              // update() does where TrainingOptions::stops says so
+    std::string solver;       // "ppo"
+    Settings settings;        // a resumed run has the same
+    std::string note;         // what it has chosen that users may not expect, or ""
+    bool ends_early = false;  // update() does where TrainingOptions::stops says so
+    // What a new run does first, and says about it; may be empty.
+    std::function<std::string()> prepare = {};
     std::function<void()> update;         // a little more work
     std::function<bool()> done;           // all that was asked for
     std::function<std::int64_t()> steps;  // made, or whatever progress is measured in
