@@ -69,7 +69,8 @@ Cem::Cem(const PlannerContext& context, const CemOptions& options)
     }
     default_numbers_.resize(static_cast<std::size_t>(space_.real_count()));
     default_indices_.resize(static_cast<std::size_t>(space_.index_count()));
-    read_action(space_, space_.defaults.data(), default_numbers_.data(), default_indices_.data());
+    solvers::read_action(space_, space_.defaults.data(), default_numbers_.data(),
+                         default_indices_.data());
 
     plans_.resize(population_);
     origins_.resize(population_);
@@ -163,8 +164,9 @@ void Cem::record_policy(const DecisionPoint& point, Plan& plan, BudgetMeter& met
     for (std::size_t t = 0; t < rows && recording_->any_running(); ++t) {
         recorder_->act(*recording_, wanted, actions_.data(), point.stops);
         records_.read(actions_.data(), rows_.data());
-        read_action(space_, rows_.data(), plan.numbers.data() + t * default_numbers_.size(),
-                    plan.indices.data() + t * default_indices_.size());
+        solvers::read_action(space_, rows_.data(),
+                             plan.numbers.data() + t * default_numbers_.size(),
+                             plan.indices.data() + t * default_indices_.size());
         recording_->step(actions_.data());
         meter.add_steps(1);
     }

@@ -16,10 +16,6 @@ struct Plan {
     std::vector<std::int32_t> indices;  // rows of index_count
 };
 
-// Into the learner's numbers: the inverse of solvers::write_action, as far as there is one.
-void read_action(const solvers::ActionSpace& space, const float* values, float* numbers,
-                 std::int32_t* indices);
-
 struct Spread {
     double first = 1;      // deviation of reals in the first distribution
     double least = 0.05;   // to which a fit goes down
