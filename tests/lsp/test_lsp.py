@@ -4,6 +4,8 @@
 """
 
 import json
+import re
+import signal
 import tempfile
 import time
 import unittest
@@ -248,6 +250,16 @@ class Names(Test):
             self.assertIn(why, failed.exception.args[1])
             self.assertEqual(failed.exception.args[0], -32803)
 
+    def test_no_reserved_word_becomes_a_name(self):
+        grammar = "".join(line for line in (ROOT / "grammar/RDDL.g4").read_text().splitlines(True) if not line.startswith("//"))
+        words = sorted(set(re.findall(r"'([A-Za-z][A-Za-z-]*)'", grammar)))
+        self.assertGreater(len(words), 70)
+        client = self.opened()
+        for word in words:
+            with self.assertRaises(Failed, msg=word) as failed:
+                client.ask("rename", "domain.rddl", "burning", newName=word)
+            self.assertIn("reserved", failed.exception.args[1])
+
     def test_hover(self):
         client = self.opened()
         text = lambda *where: client.ask("hover", *where)["contents"]["value"]
@@ -351,6 +363,12 @@ class Protocol(Test):
         client.process.stdin.close()
         self.assertEqual(client.process.wait(10), 1)
         client.process.stdin = open("/dev/null", "rb")  # noqa: SIM115 - closed with the client
+
+    def test_signals_end_it(self):
+        for number, status in [(signal.SIGINT, 130), (signal.SIGTERM, 143)]:
+            client = self.client("--stdio")
+            client.process.send_signal(number)
+            self.assertEqual(client.process.wait(10), status)
 
     def test_nothing_works_before_initialize(self):
         client = self.client(initialize=False)

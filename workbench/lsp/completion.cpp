@@ -64,17 +64,19 @@ constexpr Form expressions[] = {
 class Completion {
   public:
     Completion(const Lookup& lookup, const CompletionPlace& place, Standard standard)
-        : lookup_(lookup), place_(place), standard_(standard) {}
+        : lookup_(lookup),
+          place_(place),
+          standard_(standard),
+          range_(lookup.file()->text.range(place.replaced)) {}
 
     Json items() {
         add_all();
-        constexpr std::size_t most = 1000;
-        const bool is_cut = items_.size() > most;
-        if (is_cut) items_.erase(items_.begin() + most, items_.end());
-        return {{"isIncomplete", is_cut}, {"items", items_}};
+        return {{"isIncomplete", items_.size() == most_items}, {"items", std::move(items_)}};
     }
 
   private:
+    static constexpr std::size_t most_items = 500;
+
     void add_all() {
         switch (place_.kind) {
             case CompletionPlace::Kind::Nothing:
@@ -118,13 +120,12 @@ class Completion {
 
     void add(std::string_view label, int kind, std::string_view snippet, std::string_view detail,
              std::string_view documentation = {}) {
-        if (!place_.text.empty() && !may_match(label)) return;
+        if (items_.size() == most_items || !may_match(label)) return;
         if (!labels_.insert(std::string(label)).second) return;
         const std::string text(snippet.empty() ? label : snippet);
         Json item = {{"label", label}, {"kind", kind}};
         // The edit says what is replaced: '-' is no part of a word for most editors.
-        item["textEdit"] = {{"range", lookup_.file()->text.range(place_.replaced)},
-                            {"newText", text}};
+        item["textEdit"] = {{"range", range_}, {"newText", text}};
         if (text.find('$') != text.npos) item["insertTextFormat"] = snippet_format;
         if (!detail.empty()) item["detail"] = detail;
         if (!documentation.empty())
@@ -339,7 +340,8 @@ class Completion {
     const Lookup& lookup_;
     const CompletionPlace& place_;
     Standard standard_;
-    std::vector<Json> items_;
+    Json range_;
+    Json items_ = Json::array();
     std::set<std::string> labels_;
 };
 

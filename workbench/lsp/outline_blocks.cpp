@@ -56,8 +56,8 @@ bool OutlineReader::begins_block(std::size_t at) const {
 
 bool OutlineReader::begins_section(std::size_t at) const {
     const std::string_view next = word(at + 1);
-    return !word(at).empty() && std::ranges::find(sections, word(at)) != std::end(sections) &&
-           (next == "{" || next == "=");
+    if (next != "{" && next != "=") return false;
+    return !word(at).empty() && std::ranges::find(sections, word(at)) != std::end(sections);
 }
 
 std::size_t OutlineReader::read_block(std::size_t at) {

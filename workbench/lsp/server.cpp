@@ -1,6 +1,7 @@
 #include "lsp/server.hpp"
 
 #include "lsp/session.hpp"
+#include "terminal/interrupt.hpp"
 
 #include <fcntl.h>
 #include <poll.h>
@@ -67,10 +68,11 @@ class Server {
 
     ExitStatus run() {
         try {
-            while (!session_.has_ended()) turn();
+            while (!session_.has_ended() && !workbench::is_interrupted()) turn();
         } catch (const HungUp&) {
             return diagnosed;
         }
+        if (workbench::is_interrupted()) return workbench::interrupted_status();
         return session_.was_shut_down() ? success : diagnosed;
     }
 

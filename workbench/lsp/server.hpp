@@ -15,7 +15,8 @@ struct ServerOptions {
 };
 
 // Reads requests from one descriptor and answers on the other until the client says 'exit' or hangs
-// up. success if it had asked to shut down before, else diagnosed, as the protocol demands.
+// up, or until Ctrl-C. Returns success if the client had asked to shut down before, else diagnosed,
+// as the protocol demands.
 ExitStatus serve(int input, int output, const ServerOptions& options);
 
 }  // namespace rddlc::lsp
