@@ -4,6 +4,7 @@
 #include "ir/builder.hpp"
 #include "ir/call.hpp"
 #include "ir/nest.hpp"
+#include "ir/reduction_nest.hpp"
 #include "passes/aggregations/fuse_interm_fluents.hpp"
 #include "passes/aggregations/make_aggregations_sparse.hpp"
 #include "passes/sharing/remove_unused_buffers.hpp"
@@ -88,25 +89,24 @@ class DetailsBuilder {
 
     // The variables of its table.
     std::vector<ir::VariableId> show(const ir::Computation& condition) {
-        std::vector<ir::VariableId> scope;
-        ir::NodeId body = condition.value;
         std::int64_t entries = 1;
         ir::Buffer buffer{.name = "precondition",
                           .storage = ir::Storage::Observation,
                           .scalar = ir::Scalar::Bool,
                           .span = condition.span};
-        while (const auto* all = std::get_if<ir::Reduce>(&program_[body].form)) {
-            const ir::Variable& variable = program_[all->variable];
-            if (all->op != Reduction::ForAll || all->bounds || !variable.type ||
+        const auto nest = ir::reduction_nest(program_, condition.value, [&](const ir::Reduce& all) {
+            const ir::Variable& variable = program_[all.variable];
+            if (all.op != Reduction::ForAll || !variable.type ||
                 variable.size > most_condition_entries / entries)
-                break;
+                return false;
             entries *= variable.size;
-            scope.push_back(all->variable);
             buffer.shape.push_back(variable.size);
             buffer.types.push_back(*variable.type);
-            body = all->body;
-        }
-        fill(add(std::move(buffer)), scope, body, condition.body, condition.span);
+            return true;
+        });
+        const auto scope = nest ? nest->variables : std::vector<ir::VariableId>{};
+        fill(add(std::move(buffer)), scope, nest ? nest->body : condition.value, condition.body,
+             condition.span);
         return scope;
     }
 

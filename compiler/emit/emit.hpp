@@ -24,7 +24,7 @@ struct EmitOptions {
     // The name under which the text will be stored, for what comes after the last #line.
     std::string output_name = "simulator.cpp";
     std::string compiler_version = "";  // of rddlc
-    // That define the external functions, as #include finds them.
+    // The headers that define the external functions, as #include finds them.
     std::vector<std::string> extern_headers = {};
 };
 
@@ -45,7 +45,7 @@ std::string emit_external_library(const ir::Program& program,
                                   const std::vector<std::string>& headers);
 // The C function of an external function in a shared object: "rddl_extern_inflow".
 std::string external_entry(std::string_view name);
-// Of the C++ function that a call needs: "double(std::span<const double, 3>)".
+// The type of the C++ function that a call needs: "double(std::span<const double, 3>)".
 std::string external_signature(const ir::Program& program, const ir::Call& call);
 
 }  // namespace rddlc

@@ -45,7 +45,7 @@ const std::vector<Group>& groups() {
          "a section of the instance ('objects', 'init-state', 'horizon', ...)"},
         {{Parser::DOMAIN, Parser::OBJECTS, Parser::NON_FLUENTS},
          "'domain', 'objects' or 'non-fluents'"},
-        // In an instance a distribution is also possible, but is seldom what is missing.
+        // An instance may also hold a distribution, but that is seldom what is missing.
         {{Parser::BOOLEAN, Parser::INT, Parser::REAL, Parser::MINUS, Parser::POS_INF,
           Parser::NEG_INF, Parser::ID, Parser::ENUM, Parser::DISTRIBUTION, Parser::DISCRETE},
          "a constant"},

@@ -150,7 +150,7 @@ void ErrorStrategy::sync(antlr4::Parser* parser) {
     if (!is_loop(state, parser->getContext()->getRuleIndex()))
         throw antlr4::InputMismatchException(parser);
     const TokenTypes expected = to_set(next);
-    // Behind an error, what stands between blocks may well belong to one that ended too early.
+    // Text between blocks that follows an error probably belongs to a block that ended too early.
     const bool doubtful = reported_ > 0 && parser->getContext()->getRuleIndex() == Parser::RuleText;
     if (!recovering_ && !doubtful)
         report(*parser, parser->getCurrentToken()->getTokenIndex(), expected);
@@ -169,7 +169,7 @@ void ErrorStrategy::recover(antlr4::Parser* parser, std::exception_ptr error) {
         std::rethrow_exception(error);
 }
 
-// To behind the ';' that ends what began at token `begin`, or to the '}' around it.
+// Skips to behind the ';' that ends what began at token `begin`, or to the '}' around it.
 void ErrorStrategy::skip_item(antlr4::Parser& parser, std::size_t begin,
                               bool nested_semicolons_end) {
     std::size_t depth = 0;

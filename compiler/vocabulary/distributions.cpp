@@ -37,7 +37,7 @@ struct DistributionRow {
     std::string_view name;
     std::array<Parameter, 2> parameters;
     Drawn drawn;
-    // By the type of what is drawn; see draw_int() for those that have neither.
+    // The kernel for the type of the draw; see draw_int() for draws that have neither.
     std::int64_t (*draw_int)(const Operands<double>&) = nullptr;
     double (*draw_real)(const Operands<double>&) = nullptr;
     RangeRule range = nullptr;                            // of real draws; null: unknown

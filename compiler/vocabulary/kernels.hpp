@@ -1,5 +1,5 @@
-// What operators compute and distributions draw: the runtime's functions, for the builder, which
-// folds with them, and for the evaluator, which runs on them.
+// The runtime's functions for operators and distributions. The builder folds with them, and the
+// evaluator runs on them.
 #pragma once
 
 #include "vocabulary/vocabulary.hpp"
@@ -29,7 +29,7 @@ struct OperatorKernels {
     std::int64_t (*to_int)(double) = nullptr;
 };
 
-// Comparisons, of ints and reals, have none: see compare().
+// Comparisons of ints and reals are not here: see compare().
 const OperatorKernels& kernels_of(Operator op);
 
 // Equal to GreaterEqual, on two ints or two reals.

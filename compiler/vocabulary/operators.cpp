@@ -263,7 +263,8 @@ constexpr OperatorRow operators[] = {
 };
 // clang-format on
 
-// The kernels that the typing asks for are there, so that none is missing when a program runs.
+// Checks that every kernel exists that the typing asks for, so that no program misses one when it
+// runs.
 consteval bool has_kernels(const OperatorRow& row) {
     const OperatorKernels& kernels = row.kernels;
     switch (row.typing) {

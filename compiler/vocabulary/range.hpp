@@ -55,7 +55,7 @@ double magnitude(Range range);
 Range symmetric(double magnitude);
 // The range with a margin for the rounding of functions and long sums.
 Range padded(Range range);
-// Nothing if there is no rule, or an operand's range is unknown or not finite.
+// Nothing if there is no rule, or if an operand's range is unknown or not finite.
 std::optional<Range> apply(RangeRule rule, std::span<const std::optional<Range>> operands);
 
 }  // namespace rddlc

@@ -1,6 +1,6 @@
-// RDDL's vocabulary: roles, operators, aggregations and distributions, shared by all stages. Each word
-// is a row of one table, operators.cpp or distributions.cpp among them, and all that is particular to it
-// stands in that row (CONTRIBUTING.md walks through it).
+// RDDL's vocabulary: roles, operators, aggregations and distributions, shared by all stages. Each
+// word is a row of one table, operators.cpp or distributions.cpp among them, and all that is
+// particular to it stands in that row (CONTRIBUTING.md walks through it).
 #pragma once
 
 #include <cstdint>
@@ -19,26 +19,59 @@ enum class Role : std::uint8_t { NonFluent, State, Action, Interm, Derived, Obse
 // promotes bool -> int -> real, so `Add` on ints is an integer addition, on reals a real one.
 enum class Operator : std::uint8_t {
     // arithmetic
-    Add, Subtract, Multiply, Negate,
-    Divide,                 // x/0 is inf or nan, never a fault
-    FloorDivide, FloorModulo,  // div, mod: toward -inf; by 0 gives 0
+    Add,
+    Subtract,
+    Multiply,
+    Negate,
+    Divide,  // x/0 is inf or nan, never a fault
+    FloorDivide,
+    FloorModulo,  // div, mod: toward -inf; by 0 gives 0
     // comparisons
-    Equal, NotEqual, Less, LessEqual, Greater, GreaterEqual,
+    Equal,
+    NotEqual,
+    Less,
+    LessEqual,
+    Greater,
+    GreaterEqual,
     // logic
-    And, Or, Not, Implies, Equivalent,
+    And,
+    Or,
+    Not,
+    Implies,
+    Equivalent,
     // functions
-    Abs, Sign, Round, Floor, Ceil,
-    Minimum, Maximum,                         // nan wins
-    FloorModuloReal,                          // fmod: sign of the divisor (also on ints: FloorModulo)
-    Power,                                    // of ints: a negative exponent is a fault
-    Exp, Ln, Sqrt, Cos, Sin, Tan, Acos, Asin, Atan, Cosh, Sinh, Tanh,
-    Log,                                      // log[x, base]
+    Abs,
+    Sign,
+    Round,
+    Floor,
+    Ceil,
+    Minimum,
+    Maximum,          // nan wins
+    FloorModuloReal,  // fmod: sign of the divisor (also on ints: FloorModulo)
+    Power,            // of ints: a negative exponent is a fault
+    Exp,
+    Ln,
+    Sqrt,
+    Cos,
+    Sin,
+    Tan,
+    Acos,
+    Asin,
+    Atan,
+    Cosh,
+    Sinh,
+    Tanh,
+    Log,  // log[x, base]
     Hypot,
-    Atan2,                                    // atan2[y, x]
-    LnGamma, Gamma,                           // fault unless the operand is > 0
+    Atan2,  // atan2[y, x]
+    LnGamma,
+    Gamma,  // fault unless the operand is > 0
     // not in RDDL
-    Defined,                                  // faults on nan
-    BitAnd, BitOr, BitXor, CountOnes,         // of ints, bit by bit; how many bits are 1
+    Defined,  // faults on nan
+    BitAnd,
+    BitOr,
+    BitXor,
+    CountOnes,  // of ints, bit by bit; how many bits are 1
 };
 
 // Which types an operator takes and gives. All operands are of one type.
@@ -54,17 +87,43 @@ enum class Typing : std::uint8_t {
 };
 
 enum class Reduction : std::uint8_t {
-    Sum, Product, Average, Minimum, Maximum, ForAll, Exists, ArgMin, ArgMax,
+    Sum,
+    Product,
+    Average,
+    Minimum,
+    Maximum,
+    ForAll,
+    Exists,
+    ArgMin,
+    ArgMax,
 };
 
 // Distributions with plain parameters; Discrete has nodes of its own.
 enum class Distribution : std::uint8_t {
-    KronDelta, DiracDelta, Bernoulli, Uniform, Normal, Poisson, Exponential, Weibull, Gamma,
-    Binomial, NegativeBinomial, Beta, Geometric, Pareto, Student, Gumbel, Laplace, Cauchy,
-    Gompertz, ChiSquare, Kumaraswamy,
+    KronDelta,
+    DiracDelta,
+    Bernoulli,
+    Uniform,
+    Normal,
+    Poisson,
+    Exponential,
+    Weibull,
+    Gamma,
+    Binomial,
+    NegativeBinomial,
+    Beta,
+    Geometric,
+    Pareto,
+    Student,
+    Gumbel,
+    Laplace,
+    Cauchy,
+    Gompertz,
+    ChiSquare,
+    Kumaraswamy,
 };
 
-// What is drawn. The deltas give a value of the type of their parameter.
+// Random variables. The deltas give a value of the type of their parameter.
 enum class Drawn : std::uint8_t { Bool, Int, Real, AsGiven };
 
 // Functions of a whole matrix. Determinant is written det_{...}, the others name[row=, col=][...].
@@ -72,7 +131,10 @@ enum class MatrixOperator : std::uint8_t { Determinant, Inverse, PseudoInverse, 
 
 // Draws of a whole vector, written Name[?x](...).
 enum class VectorDistribution : std::uint8_t {
-    MultivariateNormal, MultivariateStudent, Dirichlet, Multinomial,
+    MultivariateNormal,
+    MultivariateStudent,
+    Dirichlet,
+    Multinomial,
 };
 
 // if (is_one_of(op, {Operator::Add, Operator::Subtract})) ...
@@ -89,9 +151,9 @@ std::string_view name_of(Role role);
 // The name in printed models and IR, e.g. "add", "floor_div"; and in RDDL source, e.g. "+", "div".
 std::string_view name_of(Operator op);
 std::string_view source_name_of(Operator op);
-std::string_view name_of(Reduction reduction);        // as in RDDL: "sum", "forall", ...
-std::string_view name_of(Distribution distribution);  // as in RDDL: "Normal", ...
-std::string_view name_of(MatrixOperator op);          // as in RDDL: "det", "inverse", ...
+std::string_view name_of(Reduction reduction);              // as in RDDL: "sum", "forall", ...
+std::string_view name_of(Distribution distribution);        // as in RDDL: "Normal", ...
+std::string_view name_of(MatrixOperator op);                // as in RDDL: "det", "inverse", ...
 std::string_view name_of(VectorDistribution distribution);  // as in RDDL: "Dirichlet", ...
 
 // How it is written, with the names of its parameters: "log[x, base]", "Normal(mean, variance)".
@@ -100,7 +162,8 @@ std::string form_of(Distribution distribution);
 
 std::size_t arity_of(Operator op);
 Typing typing_of(Operator op);
-// The operator that is meant where operands are ints and the result shall be one; none if there is none.
+// The operator that is meant where operands are ints and the result must be one; nothing if there
+// is no such operator.
 std::optional<Operator> on_ints(Operator op);
 // Written name[...] in RDDL, unlike the infix and prefix operators.
 bool is_function(Operator op);
@@ -125,7 +188,8 @@ Drawn drawn_by(Distribution distribution);
 bool is_delta(Distribution distribution);
 // Drawn from one uniform number, by functions that vector registers have.
 bool is_by_inversion(Distribution distribution);
-// Distributions that only --std=rddlc has. Their names are not reserved: fluents and objects may have them.
+// Distributions that only --std=rddlc has. Their names are not reserved: fluents and objects may
+// have them.
 bool is_extension(Distribution distribution);
 
 std::optional<Role> role_named(std::string_view name);

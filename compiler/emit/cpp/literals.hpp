@@ -14,10 +14,10 @@ namespace rddlc::cpp {
 // 0.1f, -2.0f.
 std::string literal(const ir::Value& value, RealType real = RealType::Double);
 
-// As an element of a table: bools are 0 and 1, reals drop ".0".
+// The spelling of an element of a table: bools are 0 and 1, reals drop ".0".
 std::string table_entry(const ir::Value& value, RealType real = RealType::Double);
 
-// In double quotes.
+// A string literal, with its double quotes.
 std::string literal(std::string_view text);
 
 // Safe after "//": one line, no control characters, no line continuation.

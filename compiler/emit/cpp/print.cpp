@@ -58,7 +58,7 @@ Level level_of(const Expression& expression) {
     return operation ? operation->op.level : Level::Primary;
 }
 
-// Of an operand of `op`.
+// The precedence that an operand of `op` needs.
 bool needs_parentheses(const Operator& op, Level loosest, const Expression& operand) {
     const Level level = level_of(operand);
     return level < loosest && !(op.associative && level == op.level);
@@ -78,7 +78,7 @@ Doc chain(const Operation& operation) {
     return sequence(std::move(first), " " + op.word, group(sequence(line(), std::move(second))));
 }
 
-// In pieces that begin behind blanks.
+// The text in pieces that begin behind blanks.
 Doc in_quotes(std::string_view text) {
     constexpr std::size_t longest = 85;
     std::vector<Doc> pieces;
@@ -93,7 +93,7 @@ Doc in_quotes(std::string_view text) {
     return group(align(document::concat(std::move(pieces))));
 }
 
-// As many in a line as fit.
+// Each line holds as many pieces as fit.
 Doc filled(std::span<const Expression> items) {
     if (items.size() == 1) return doc(items.front());
     std::vector<Doc> parts;

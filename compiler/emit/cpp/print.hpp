@@ -14,7 +14,7 @@ inline constexpr std::size_t indentation = 4;
 
 namespace tree {
 
-// Of an expression on one line.
+// The text of an expression on one line.
 std::size_t width(const Expression& expression);
 
 // Definitions at a level of indentation. Those of one line stand together.

@@ -54,7 +54,7 @@ struct Bracketed {
     Expressions items;
     std::vector<std::string> comments = {};  // behind the items, where there are any
 };
-// In front of its one operand, or between two.
+// The operator stands in front of its one operand, or between two.
 struct Operator {
     std::string word;
     Level level;

@@ -62,7 +62,7 @@ std::string scalar_constant(ir::Scalar scalar) {
     return "RDDL_REAL";
 }
 
-// The record that a role's fluents lie in; empty if in none.
+// The record that holds the fluents of a role; empty if there is no such record.
 std::string record_of(Role role) {
     switch (role) {
         case Role::State:

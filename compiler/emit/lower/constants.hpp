@@ -1,4 +1,4 @@
-// What the instance fixes, as emitted code tells it (rddl/interface/constants.hpp).
+// Emits all that the instance fixes (rddl/interface/constants.hpp).
 #pragma once
 
 #include "emit/cpp/tree.hpp"

@@ -1,5 +1,5 @@
-// The code that computes interm- and derived-fluents again for those who ask
-// (rddl/interface/details.hpp): a namespace of its own inside that of the simulator.
+// Emits the code that computes interm- and derived-fluents again on request
+// (rddl/interface/details.hpp): a namespace of its own inside the simulator's.
 #pragma once
 
 #include "emit/lower/unit.hpp"

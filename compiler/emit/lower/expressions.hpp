@@ -20,7 +20,7 @@
 
 namespace rddlc::cpp {
 
-// What a function turns out to need.
+// The things that a function needs, found while it is lowered.
 struct Uses {
     std::set<ir::Storage> records;  // its parameters
     std::set<ir::Storage> stored;   // those that it changes
@@ -41,7 +41,7 @@ class Expressions {
     // How many characters it has on one line; one more than `most` if it has more than that: what
     // is longer is not lowered to its end.
     std::size_t width_within(ir::NodeId id, std::size_t most);
-    // What `make` makes, which is only looked at: it counts for no use.
+    // The result of `make` is only inspected: it does not count as a use.
     template <class Make>
     auto measured(Make&& make) {
         Uses before = std::exchange(uses_, {});
@@ -67,7 +67,7 @@ class Expressions {
         return_to(before);
         return tree::call(binder_function(binder), std::move(arguments));
     }
-    // What a lambda returns: an int constant must not be C++'s int.
+    // The return type of a lambda: an int constant must not become C++'s int.
     tree::Expression result(ir::NodeId id);
     // One call of a draw from listed weights, given their array.
     tree::Expression discrete_call(const ir::Discrete& discrete, tree::Expression weights);
@@ -88,11 +88,11 @@ class Expressions {
     const ObjectLanes& enter(ir::Nest nest);
     bool is_over_several() const { return several_.has_value(); }
     void leave_nest() { several_.reset(); }
-    // What draws and branches take.
+    // The arguments of draws and branches.
     std::string context() const { return several_ ? several_->context : "context"; }
     std::string claim(std::string_view wish) { return scope_.claim(wish); }
 
-    // What was named since a mark is forgotten by returning to it.
+    // Returning to a mark forgets all names since that mark.
     struct Mark {
         std::size_t scope, naming;
     };
@@ -127,7 +127,7 @@ class Expressions {
     tree::Expressions binder_arguments(const ir::Node& binder);
     // "rddl::Index r"; without the name where the body does not use it.
     tree::Expression parameter(ir::VariableId variable, ir::NodeId body) const;
-    // What an aggregation runs over: a count, a row of a table, or rddl::IndexRange(begin, end).
+    // The range of an aggregation: a count, a row of a table, or rddl::IndexRange(begin, end).
     tree::Expression range(const ir::Reduce& reduce);
     std::optional<tree::Expression> element_of_row(const ir::Load& load);
     tree::Expressions all_of(std::span<const ir::NodeId> operands);

@@ -37,7 +37,7 @@ struct Use {
     bool operator==(const Use& other) const {
         return name == other.name && result == other.result && parameters == other.parameters;
     }
-    // As a type.
+    // The parameter as a C++ type.
     std::string signature() const {
         return fmt::format("{}({})", result, fmt::join(parameters, ", "));
     }

@@ -10,10 +10,11 @@
 
 namespace rddlc::cpp {
 
-// #include of the user's headers and of what calls need; nothing if the program calls none.
+// The #includes of the user's headers and of the headers that calls need; nothing if the program
+// calls no external function.
 std::string external_includes(const ir::Program& program, const std::vector<std::string>& headers);
 
-// That each function can be called as the program does.
+// Assertions that each function can be called as the program calls it.
 std::string external_asserts(const Unit& unit);
 
 }  // namespace rddlc::cpp

@@ -54,7 +54,8 @@ std::vector<Parameter> parameters_of(const std::vector<Storage>& records, const 
 const std::vector<Storage> simulator_records = {Storage::State, Storage::Action, Storage::Scratch,
                                                 Storage::Next, Storage::Observation};
 
-// Those of a function of the policy, which sees the observation if there is one, else the state.
+// The parameters of a function of the policy, which sees the observation if there is one, else the
+// state.
 std::vector<Storage> policy_records(const Unit& unit) {
     const bool partial = unit.program.partially_observed();
     return {partial ? Storage::Observation : Storage::State, Storage::Memory, Storage::Scratch,
@@ -90,7 +91,7 @@ std::string lane_type_of(ir::Scalar scalar) {
     return "typename L::" + lane_type(scalar);
 }
 
-// What the statements rely on: the types that they name, and tables where nothing passes them.
+// The names that statements rely on: types, and tables that are not passed as parameters.
 tree::Block prologue(const Uses& uses, bool has_scratch) {
     tree::Block lines;
     for (const ir::Scalar scalar : uses.types)
@@ -99,7 +100,7 @@ tree::Block prologue(const Uses& uses, bool has_scratch) {
     return lines;
 }
 
-// With the place that they come from.
+// Statements with the line directive of their place, if the options ask for it.
 tree::Block located(const Unit& unit, tree::Block statements, Span span) {
     if (!unit.options.line_directives) return statements;
     for (tree::Statement& each : statements) each.directive = line_directive(unit.sources, span);
@@ -112,7 +113,7 @@ tree::Block body_of(const Unit& unit, FunctionBody& body, Span span, bool has_sc
     return lines;
 }
 
-// In one line, cut to the width of the page.
+// The text in one line, cut to the width of the page.
 std::string comment(std::string text, const std::string& place) {
     text = comment_text(text);
     const std::string tail = "  (" + place + ")";
@@ -158,7 +159,7 @@ struct Call {
     Uses uses;
 };
 
-// What a function consists of, and the parts that it calls, if there are too many.
+// The parts of a function, and the functions that it calls if there are too many parts.
 struct Calls {
     tree::Block statements;
     tree::Block parts;

@@ -28,7 +28,7 @@ StepFunctions step_functions(const Unit& unit);
 // Whether all reals of the state and the action are moderate that the program takes to be.
 std::string moderate_test(const Unit& unit);
 
-// The struct Policy; nothing if there is none.
+// The struct Policy; nothing if the program has no policy.
 std::string policy(const Unit& unit);
 
 // The assignments that fill a record with the initial or default values of its buffers; without

@@ -13,7 +13,7 @@ namespace {
 using tree::Level;
 using Spelling = std::variant<tree::Operator, std::string>;
 
-// Of the other connective among the operands, readers and -Wparentheses want to see parentheses.
+// Readers and -Wparentheses expect parentheses around an operand that is the other connective.
 tree::Operator connective(const char* word, Level own) {
     return {word, own, Level::Comparison, Level::Comparison, true};
 }

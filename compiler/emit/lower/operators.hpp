@@ -12,7 +12,7 @@ namespace rddlc::cpp {
 
 // An operator of C++, or the function of the runtime in the namespace rddl.
 std::variant<tree::Operator, std::string> spelling_of(Operator op, bool on_ints);
-// Those of indices, which cannot overflow.
+// Operators of indices, which cannot overflow.
 tree::Operator plain_operator(Operator op);
 
 std::string function_of(Reduction reduction);

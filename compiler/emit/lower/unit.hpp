@@ -1,5 +1,5 @@
-// What every part of the emitter looks at: the program with its names and properties. Nothing
-// changes.
+// The input of every part of the emitter: the program with its names and properties. It does not
+// change.
 #pragma once
 
 #include "emit/emit.hpp"

@@ -35,10 +35,10 @@ std::string plain_identifier(std::string_view name);
 // The same with a '_' at its end if it is reserved.
 std::string identifier(std::string_view name);
 
-// What the user's C++ function for an external function is called: with a '_' if it is a keyword.
+// The name of the user's C++ function for an external function, with a '_' if it is a keyword.
 std::string external_identifier(std::string_view name);
 
-// What tells an identifier of the user's from one of ours.
+// The characters that distinguish an identifier of the user's from one of ours.
 struct Mark {
     std::string_view before, after;
 };

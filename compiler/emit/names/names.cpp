@@ -10,7 +10,7 @@ namespace {
 
 using ir::Storage;
 
-// Of a program.
+// The names of a program.
 constexpr Mark count_mark{"", "_count"};
 constexpr Mark table_mark{"", "_"};
 constexpr Mark initial_mark{"initial_", ""};

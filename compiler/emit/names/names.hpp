@@ -9,21 +9,21 @@
 
 namespace rddlc::cpp {
 
-// What emitted functions call a record: its type, and their parameter.
+// The type of a record in emitted functions, and the parameter of that type.
 struct RecordWords {
     std::string type, parameter;
 };
 RecordWords words_of(ir::Storage storage);
 
-// What a function calls a type of the lanes: "Bool" for L::Bool.
+// The name of a lane type in a function: "Bool" for L::Bool.
 std::string lane_type(ir::Scalar scalar);
-// What a table holds: "double", "float", "std::int64_t", "bool".
+// The type of a table's elements: "double", "float", "std::int64_t", "bool".
 std::string table_type(ir::Scalar scalar, RealType real = RealType::Double);
 
-// What a function declares besides variables and values.
+// The names that a function declares besides variables and values.
 std::vector<std::string> function_words();
 
-// What is told about the problem.
+// The description of the problem.
 namespace marks {
 inline constexpr Mark objects{"", "_objects"};
 inline constexpr Mark lower{"", "_lower"};

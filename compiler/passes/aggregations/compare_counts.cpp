@@ -1,5 +1,6 @@
 #include "passes/aggregations/compare_counts.hpp"
 
+#include "ir/reduction_nest.hpp"
 #include "ir/rewrite.hpp"
 
 #include <map>
@@ -10,27 +11,18 @@
 namespace rddlc::passes {
 namespace {
 
-// Aggregations right inside each other, outermost first, over a bool.
-struct ComparedNest {
-    std::vector<ir::VariableId> variables;
-    ir::NodeId body;
-    auto operator<=>(const ComparedNest&) const = default;
-};
-
-std::optional<ComparedNest> nest_of(const ir::Program& program, ir::NodeId id, Reduction op) {
-    ComparedNest nest{{}, id};
-    while (const auto* reduce = std::get_if<ir::Reduce>(&program[nest.body].form)) {
-        if (reduce->op != op || reduce->bounds) return std::nullopt;
-        nest.variables.push_back(reduce->variable);
-        nest.body = reduce->body;
-    }
-    if (nest.variables.empty()) return std::nullopt;
+// The nest of a node that is a reduction by this operator. Its body must not be a reduction.
+std::optional<ir::ReductionNest> whole_nest(const ir::Program& program, ir::NodeId id,
+                                            Reduction op) {
+    auto nest = ir::reduction_nest(program, id);
+    if (!nest || nest->op != op || std::holds_alternative<ir::Reduce>(program[nest->body].form))
+        return std::nullopt;
     return nest;
 }
 
-// Of the sum of a bool as 0 and 1.
-std::optional<ComparedNest> counted(const ir::Program& program, ir::NodeId id) {
-    std::optional<ComparedNest> nest = nest_of(program, id, Reduction::Sum);
+// The nest of a sum that counts where a bool is true; its body is the bool.
+std::optional<ir::ReductionNest> counted(const ir::Program& program, ir::NodeId id) {
+    std::optional<ir::ReductionNest> nest = whole_nest(program, id, Reduction::Sum);
     if (!nest || program[id].type != ir::Scalar::Int) return std::nullopt;
     const auto* convert = std::get_if<ir::Convert>(&program[nest->body].form);
     if (!convert) return std::nullopt;
@@ -53,11 +45,11 @@ class Comparing {
     }
 
   private:
-    // By what they stand for.
+    // The keys are the nodes that the comparisons replace.
     std::map<ir::NodeId, ir::NodeId> comparisons_below(ir::NodeId root) {
         std::set<ir::NodeId> below;
         collect(root, below);
-        std::map<ComparedNest, ir::NodeId> counts;
+        std::map<ir::ReductionNest, ir::NodeId> counts;
         for (ir::NodeId id : below) {
             if (const auto nest = counted(program_, id)) counts[*nest] = id;
         }
@@ -73,17 +65,19 @@ class Comparing {
         for (ir::NodeId operand : ir::operands_of(program_[id])) collect(operand, below);
     }
 
-    std::optional<ir::NodeId> comparison_for(ir::NodeId id,
-                                             const std::map<ComparedNest, ir::NodeId>& counts) {
+    std::optional<ir::NodeId> comparison_for(
+        ir::NodeId id, const std::map<ir::ReductionNest, ir::NodeId>& counts) {
         const ir::NodeId zero = builder_.constant(std::int64_t{0});
-        if (const auto nest = nest_of(program_, id, Reduction::Exists)) {
-            const auto count = counts.find(*nest);
+        const auto count_of = [&](const ir::ReductionNest& nest, ir::NodeId condition) {
+            return counts.find({Reduction::Sum, nest.variables, condition});
+        };
+        if (const auto nest = whole_nest(program_, id, Reduction::Exists)) {
+            const auto count = count_of(*nest, nest->body);
             if (count != counts.end())
                 return builder_.apply(Operator::Greater, {count->second, zero});
         }
-        if (auto nest = nest_of(program_, id, Reduction::ForAll)) {
-            nest->body = builder_.apply(Operator::Not, {nest->body});
-            const auto count = counts.find(*nest);
+        if (const auto nest = whole_nest(program_, id, Reduction::ForAll)) {
+            const auto count = count_of(*nest, builder_.apply(Operator::Not, {nest->body}));
             if (count != counts.end())
                 return builder_.apply(Operator::Equal, {count->second, zero});
         }

@@ -18,7 +18,7 @@ struct Term {
 };
 using Terms = std::vector<Term>;
 
-// What a simulator computes of sums and products is exact if all of it are multiples of this unit
+// A simulator computes sums and products exactly if all of their parts are multiples of this unit
 // that 53 bits hold.
 constexpr double unit = 0x1p-20, largest_exact = 0x1p53 * unit;
 
@@ -33,7 +33,7 @@ class Splitting {
         return terms;
     }
 
-    // The greatest size of their sum; nan if a coefficient is no multiple of the unit.
+    // The greatest magnitude of their sum; nan if a coefficient is not a multiple of the unit.
     double most(const Terms& terms) const {
         double most = 0;
         for (const Term& term : terms) {
@@ -83,7 +83,7 @@ class Splitting {
         return terms;
     }
 
-    // Of a bool, or of an int that is never negative.
+    // The operand is a bool, or an int that is never negative.
     std::optional<double> greatest(ir::NodeId id) const {
         if (builder_.program()[id].type == ir::Scalar::Bool) return 1;
         const auto& range = builder_.properties(id).range;

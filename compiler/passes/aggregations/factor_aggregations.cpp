@@ -1,5 +1,6 @@
 #include "passes/aggregations/factor_aggregations.hpp"
 
+#include "ir/reduction_nest.hpp"
 #include "ir/rewrite.hpp"
 
 #include <algorithm>
@@ -24,38 +25,28 @@ class Factoring {
     explicit Factoring(ir::Builder& builder) : builder_(builder) {}
 
     // The same value by factors taken out, if that makes some part depend on less.
-    std::optional<ir::NodeId> factored(const ir::Reduce& outermost, ir::Scalar type) {
-        const auto nest = nest_of(outermost, type);
+    std::optional<ir::NodeId> factored(ir::NodeId id) {
+        const auto nest = nest_of(id);
         if (!nest) return std::nullopt;
         FactoredNest rest = *nest;
         while (take_out_one(rest, *nest)) {
         }
         if (rest.variables.size() == nest->variables.size()) return std::nullopt;
-        ir::NodeId value = product(rest.op, rest.factors);
-        for (auto variable = rest.variables.rbegin(); variable != rest.variables.rend();
-             ++variable) {
-            value = builder_.reduce(rest.op, *variable, value);
-        }
-        return value;
+        return ir::reduced(builder_, rest.op, rest.variables, product(rest.op, rest.factors));
     }
 
   private:
-    std::optional<FactoredNest> nest_of(const ir::Reduce& outermost, ir::Scalar type) const {
-        const bool exact =
-            type == ir::Scalar::Bool || (type == ir::Scalar::Int && outermost.op == Reduction::Sum);
-        if (!exact || outermost.bounds || builder_.properties(outermost.body).may_fault) {
-            return std::nullopt;
-        }
-        FactoredNest nest{outermost.op, {outermost.variable}, {}};
-        ir::NodeId body = outermost.body;
-        while (const auto* inner = std::get_if<ir::Reduce>(&program()[body].form)) {
-            if (inner->op != nest.op || inner->bounds) break;
-            nest.variables.push_back(inner->variable);
-            body = inner->body;
-        }
-        collect_factors(nest.op, body, nest.factors);
-        if (nest.factors.size() < 2) return std::nullopt;
-        return nest;
+    std::optional<FactoredNest> nest_of(ir::NodeId id) const {
+        const auto nest = ir::reduction_nest(program(), id);
+        if (!nest || builder_.properties(nest->body).may_fault) return std::nullopt;
+        const ir::Scalar type = program()[id].type;
+        const bool is_exact =
+            type == ir::Scalar::Bool || (type == ir::Scalar::Int && nest->op == Reduction::Sum);
+        if (!is_exact) return std::nullopt;
+        FactoredNest factored{nest->op, nest->variables, {}};
+        collect_factors(nest->op, nest->body, factored.factors);
+        if (factored.factors.size() < 2) return std::nullopt;
+        return factored;
     }
 
     void collect_factors(Reduction op, ir::NodeId id, Factors& factors) const {
@@ -70,7 +61,7 @@ class Factoring {
                     : apply->op == (op == Reduction::ForAll ? Operator::Or : Operator::And);
             if (splits) return all(apply->operands);
         }
-        // What product() makes of a condition and a number.
+        // product() makes this of a condition and a number.
         const auto* select = std::get_if<ir::Select>(&node.form);
         if (select && op == Reduction::Sum && is_zero(select->else_value)) {
             return all({select->condition, select->then_value});
@@ -80,8 +71,8 @@ class Factoring {
         factors.push_back(id);
     }
 
-    // For one variable: the factors that depend on it become an aggregation of their own, which is
-    // a factor of the others. True if some part of the nest then depends on less.
+    // Takes out one variable: the factors that depend on it become an aggregation of their own,
+    // which is a factor of the others. True if some part of the nest then depends on less.
     bool take_out_one(FactoredNest& rest, const FactoredNest& whole) {
         for (auto variable = rest.variables.begin(); variable != rest.variables.end(); ++variable) {
             Factors inside, outside;
@@ -153,9 +144,8 @@ ir::Program factor_aggregations(ir::Program program, Report& report) {
     return ir::rewrite(
         std::move(program),
         [&](ir::Builder& builder, ir::NodeId, const ir::Node& node) -> std::optional<ir::NodeId> {
-            const auto* reduce = std::get_if<ir::Reduce>(&node.form);
-            if (!reduce) return std::nullopt;
-            const auto factored = Factoring(builder).factored(*reduce, node.type);
+            if (!std::holds_alternative<ir::Reduce>(node.form)) return std::nullopt;
+            const auto factored = Factoring(builder).factored(builder.rebuild(node));
             if (factored) ++report["aggregations factored"];
             return factored;
         });

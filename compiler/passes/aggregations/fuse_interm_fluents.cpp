@@ -13,7 +13,8 @@
 namespace rddlc::passes {
 namespace {
 
-// What takes more operations (Properties::cost) is not repeated where it is read in several places.
+// An expression of more operations (Properties::cost) is not repeated where it is read in several
+// places.
 constexpr double cheap_to_repeat = 2;
 // A single value that takes more is worth a name. As is what share_subexpressions would name.
 constexpr double worth_a_definition = 6;
@@ -26,7 +27,8 @@ class Fusion {
           readers_(readers_of_step(program_)),
           builder_(program_) {}
 
-    // In the order of evaluation, so that what is fused has what it reads fused already.
+    // The definitions are visited in the order of evaluation, so a fused expression already has its
+    // own reads fused.
     ir::Program run() && {
         const ir::Change fuse = [&](ir::NodeId& root) {
             root = fused(root);

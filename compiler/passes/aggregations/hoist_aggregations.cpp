@@ -14,8 +14,8 @@
 namespace rddlc::passes {
 namespace {
 
-// In operations (Properties::cost): what is worth a table, and what writing or reading an element
-// costs.
+// Operations (Properties::cost) of an expression that is worth a table, and of writing or reading
+// an element.
 constexpr double worth_hoisting = 8;
 constexpr double cost_of_element = 2;
 // The work must shrink to less than this part, since branches may skip some of it.
@@ -157,7 +157,7 @@ class Hoisting {
             const auto& needed = builder_.properties(id).free_variables;
             if (std::ranges::binary_search(needed, variable)) dimensions.push_back(variable);
         }
-        // What its value consists of may become tables, too.
+        // The parts of its value may also become tables.
         for (ir::NodeId operand : ir::operands_of(program_[id])) {
             Variables inner = dimensions;
             const auto variable = ir::bound_variable(program_[id]);

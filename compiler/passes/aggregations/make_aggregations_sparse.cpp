@@ -1,7 +1,9 @@
 // Over 400 lines: finding the entries, writing their tables and rewriting the nest share one state.
 #include "passes/aggregations/make_aggregations_sparse.hpp"
 
+#include "ir/evaluation_budget.hpp"
 #include "ir/fold.hpp"
+#include "ir/reduction_nest.hpp"
 #include "ir/rewrite.hpp"
 #include "passes/aggregations/entry_tables.hpp"
 #include "passes/analyses/sparsity_pattern.hpp"
@@ -14,15 +16,13 @@
 namespace rddlc::passes {
 namespace {
 
-// What looking up an entry costs, in operations.
+// Operations of looking up an entry.
 constexpr double cost_of_entry = 3;
 // A loop over all objects is fine if it costs no more than this.
 constexpr double cheap_loop = 12;
 // Rows beyond this number must have entries.
 constexpr double most_empty_rows = 1e6;
-// In operations, of computing one table of entries.
-constexpr double affordable_for_entries = 1e8;
-// Of all aggregations: each takes a few numbers in the emitted text.
+// The entries of all aggregations: each takes a few numbers in the emitted text.
 constexpr std::int64_t most_entries_in_all = std::int64_t{1} << 20;
 
 // The aggregation that is being rewritten: its objects are those of an entry now.
@@ -95,8 +95,8 @@ class Rewriting {
 
     ir::NodeId rebuilt(ir::NodeId id, Scope& scope) {
         ir::Node node = program_[id];
-        if (const auto* reduce = std::get_if<ir::Reduce>(&node.form)) {
-            if (const auto sparse = made_sparse(*reduce, scope)) return *sparse;
+        if (std::holds_alternative<ir::Reduce>(node.form)) {
+            if (const auto sparse = made_sparse(id, scope)) return *sparse;
         }
         ir::change_operands(node,
                             [&](ir::NodeId& operand) { operand = rewritten(operand, scope); });
@@ -132,8 +132,8 @@ class Rewriting {
             return scope.relation.has(variable);
         };
         return properties.uniform && std::ranges::all_of(properties.free_variables, is_known) &&
-               properties.cost * static_cast<double>(scope.relation.count()) <=
-                   affordable_for_entries &&
+               ir::EvaluationBudget::allows(properties.cost *
+                                            static_cast<double>(scope.relation.count())) &&
                (program_[id].type != ir::Scalar::Int || reads_table(id));
     }
 
@@ -168,46 +168,37 @@ class Rewriting {
 
     // ---------------------------------------------------------------------- aggregations
 
-    // Reductions right inside each other by the same operator, if their order does not matter.
-    struct Nest {
-        std::vector<ir::VariableId> variables;
-        ir::NodeId body;
-    };
-    Nest nest_of(const ir::Reduce& outermost) const {
-        Nest nest{{outermost.variable}, outermost.body};
-        while (program_[nest.body].type != ir::Scalar::Real) {
-            const auto* inner = std::get_if<ir::Reduce>(&program_[nest.body].form);
-            if (!inner || inner->op != outermost.op || inner->bounds) break;
-            nest.variables.push_back(inner->variable);
-            nest.body = inner->body;
-        }
-        return nest;
+    // Inner reductions belong to the nest if the order of terms does not matter.
+    std::optional<ir::ReductionNest> nest_of(ir::NodeId id) const {
+        const auto* const outermost = std::get_if<ir::Reduce>(&program_[id].form);
+        return ir::reduction_nest(program_, id, [&](const ir::Reduce& reduce) {
+            return &reduce == outermost || program_[id].type != ir::Scalar::Real;
+        });
     }
 
-    std::optional<ir::NodeId> made_sparse(const ir::Reduce& reduce, Scope& outer) {
+    std::optional<ir::NodeId> made_sparse(ir::NodeId id, Scope& outer) {
+        auto nest = nest_of(id);
+        if (!nest) return std::nullopt;
+        const ir::Reduce reduce = std::get<ir::Reduce>(program_[id].form);
         const auto neutral = ir::fold_empty(reduce.op, program_[reduce.body].type);
-        if (!neutral || reduce.bounds) return std::nullopt;
-        Nest nest = nest_of(reduce);
+        if (!neutral) return std::nullopt;
         std::vector<ir::NodeId> doubtful;
-        std::optional<Relation> found = pattern_.of(nest.body, *neutral);
+        std::optional<Relation> found = pattern_.of(nest->body, *neutral);
         if (!found && reduce.op == Reduction::Sum) found = pattern_.of_term(reduce.body, doubtful);
         if (!found || pattern_.depend(doubtful, reduce.variable)) return std::nullopt;
-        Scope scope = scope_for(*found, nest, outer);
+        Scope scope = scope_for(*found, nest->variables, outer);
         if (!doubtful.empty() && !lacks_entries_in_each_row(scope)) return std::nullopt;
         if (found->tuples.empty())
             return with_terms_left_out(builder_.constant(*neutral), doubtful, outer);
         // Objects that no table tells apart are left to loops inside.
-        for (auto variable = nest.variables.rbegin(); variable != nest.variables.rend();
-             ++variable) {
-            if (!found->has(*variable))
-                nest.body = builder_.reduce(reduce.op, *variable, nest.body);
-        }
+        std::erase_if(nest->variables, [&](ir::VariableId each) { return found->has(each); });
+        const ir::NodeId body = ir::reduced(builder_, nest->op, nest->variables, nest->body);
         if (scope.relation.count() > entries_left_) return std::nullopt;
-        if (!is_worthwhile(scope, nest.body)) return std::nullopt;
+        if (!is_worthwhile(scope, body)) return std::nullopt;
         entries_left_ -= scope.relation.count();
         ++report_["aggregations made sparse"];
-        name(scope, nest.body);
-        return with_terms_left_out(over_entries(reduce.op, nest.body, scope), doubtful, outer);
+        name(scope, body);
+        return with_terms_left_out(over_entries(nest->op, body, scope), doubtful, outer);
     }
 
     // A term that is left out is zero times each of these: it is nan where one is not finite. Else
@@ -234,16 +225,17 @@ class Rewriting {
         });
     }
 
-    Scope scope_for(const Relation& found, const Nest& nest, Scope& outer) {
+    Scope scope_for(const Relation& found, const std::vector<ir::VariableId>& variables,
+                    Scope& outer) {
         Scope scope{.outer = &outer};
         std::vector<Axis> axes;
         std::ranges::remove_copy_if(found.axes, std::back_inserter(axes), [&](const Axis& axis) {
-            return std::ranges::find(nest.variables, axis.variable) != nest.variables.end();
+            return std::ranges::find(variables, axis.variable) != variables.end();
         });
         scope.row_axes = axes.size();
         scope.has_row_an_entry = outer.outer && std::ranges::is_permutation(axes, outer.axes());
         if (scope.has_row_an_entry) axes.assign(outer.axes().begin(), outer.axes().end());
-        for (const ir::VariableId variable : nest.variables) {
+        for (const ir::VariableId variable : variables) {
             if (found.has(variable)) axes.push_back({variable, program_[variable].size});
         }
         scope.relation = ordered(found, std::move(axes));
@@ -363,8 +355,8 @@ class Rewriting {
         return height + (std::holds_alternative<ir::Reduce>(program_[id].form) ? 1 : 0);
     }
 
-    // By the table of bools that tells entries apart, or the only table that does; else by the
-    // fluent that is computed.
+    // The name comes from the table of bools that tells entries apart, or from the only table that
+    // does, or else from the fluent that is computed.
     void name(Scope& scope, ir::NodeId body) const {
         std::set<ir::BufferId> tables;
         collect_tables(body, scope, tables);

@@ -78,8 +78,8 @@ std::vector<int> count_uses(const ir::Program& program) {
     return uses;
 }
 
-// Both branches, or the one that is no constant, are named by this Select alone. What somebody else
-// needs, too, stays a draw of its own, and then the merged one would draw from its site once more.
+// Only this Select uses both branches, or the branch that is not constant. A draw that is used
+// elsewhere stays a draw of its own, and then the merged one would draw from its site once more.
 bool are_only_here(const ir::Program& program, const ir::Select& select,
                    const std::vector<int>& uses) {
     const auto is_only_here = [&](ir::NodeId branch) {
@@ -89,7 +89,7 @@ bool are_only_here(const ir::Program& program, const ir::Select& select,
     return is_only_here(select.then_value) && is_only_here(select.else_value);
 }
 
-// By NodeId::index: Selects whose branches may become one.
+// Selects whose branches may become one, by NodeId::index.
 std::vector<bool> candidates(const ir::Program& program) {
     const std::vector<int> uses = count_uses(program);
     std::vector<bool> found;

@@ -27,7 +27,7 @@ struct Lines {
     std::int64_t length, stride, count;
 };
 
-// The place of that entry in each line that has one; none if a line has several.
+// The place of that entry in each line that has one; nothing if a line has several.
 std::optional<std::map<std::int64_t, std::int64_t>> only_places(const Table& table,
                                                                 const Lines& lines, bool entry) {
     std::map<std::int64_t, std::int64_t> places;
@@ -96,7 +96,7 @@ std::optional<OnlyObjects::Column> OnlyObjects::column(ir::NodeId id,
     return Column{load->buffer, *axis, load->indices};
 }
 
-// By a table from values to objects.
+// Looks the object up in a table from values to objects.
 std::optional<OnlyObject> OnlyObjects::with_value(const Column& column, ir::NodeId value) {
     const ir::Buffer& table = program_[column.table];
     std::vector<std::int64_t> entries;
@@ -132,7 +132,7 @@ std::optional<OnlyObject> OnlyObjects::with_value(const Column& column, ir::Node
     return OnlyObject{object, builder_.apply(Operator::And, {test(value, first, last), is_there})};
 }
 
-// By tables of the other axes.
+// Looks the object up in tables of the other axes.
 std::optional<OnlyObject> OnlyObjects::with_entry(const Column& column, bool entry) {
     const ir::Buffer& table = program_[column.table];
     const Lines lines(table, column.axis);
@@ -152,12 +152,13 @@ std::optional<OnlyObject> OnlyObjects::with_entry(const Column& column, bool ent
                       load(like, "-is-there", ir::Scalar::Bool, std::move(exists), column)};
 }
 
-// From a table of these values, unless they are all equal; indexed as the column is, without its
-// axis.
+// Loads from a table of these values, unless they are all equal. It is indexed as the column is,
+// without its axis.
 ir::NodeId OnlyObjects::load(const ir::Buffer& like, const std::string& suffix, ir::Scalar scalar,
                              Table values, const Column& column) {
     if (values.is_uniform()) return builder_.constant(values[0]);
-    // By the value that most have; a large table stays as sparse as it was written.
+    // The most frequent value is the common one, so a large table stays as sparse as it was
+    // written.
     if (values.size() <= most_searched_elements) values = Table(values.dense());
     ir::Buffer table = like;
     table.name += suffix;

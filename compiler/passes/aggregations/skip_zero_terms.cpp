@@ -7,10 +7,10 @@
 namespace rddlc::passes {
 namespace {
 
-// In operations (Properties::cost): more than a branch that is not foreseen.
+// Operations (Properties::cost) that cost more than a mispredicted branch.
 constexpr double expensive = 20;
 
-// The bool that a number is; none if it is another number.
+// The bool that a number is made of; nothing if it is another number.
 std::optional<ir::NodeId> bool_of(const ir::Program& program, ir::NodeId id) {
     const auto* convert = std::get_if<ir::Convert>(&program[id].form);
     if (!convert || program[convert->operand].type != ir::Scalar::Bool) return std::nullopt;

@@ -16,8 +16,8 @@ namespace rddlc::passes {
 namespace {
 
 constexpr double largest_range = 256;
-// In operations (Properties::cost): what is worth loading an element of a table instead, and how
-// many elements each of them is worth.
+// Operations (Properties::cost) that are worth loading an element of a table instead, and how many
+// elements each of them is worth.
 constexpr double worth_a_count_table = 8;
 constexpr double elements_for_an_operation = 64;
 // A table of several kinds of objects has this many times fewer rows, at least.
@@ -76,7 +76,7 @@ class CountTabulation {
                properties.range->upper - properties.range->lower < largest_range;
     }
 
-    // What it depends on is bound outside of it.
+    // All that it depends on is bound outside of it.
     bool is_bound_inside(ir::NodeId count, ir::NodeId id) const {
         return !std::ranges::includes(builder_.properties(id).free_variables,
                                       builder_.properties(count).free_variables);
@@ -232,7 +232,7 @@ class CountTabulation {
         std::vector<ir::NodeId> indices;  // but for the count
     };
 
-    // None where the objects are of too many kinds.
+    // Nothing if the objects are of too many kinds.
     static std::optional<Kinds> kinds_of(const Rows& rows) {
         Kinds kinds;
         for (std::size_t object = 0; object < rows.reached.size(); ++object) {

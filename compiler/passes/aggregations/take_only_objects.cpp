@@ -1,10 +1,12 @@
 #include "passes/aggregations/take_only_objects.hpp"
 
 #include "ir/fold.hpp"
+#include "ir/reduction_nest.hpp"
 #include "ir/rewrite.hpp"
 
 #include <algorithm>
 #include <map>
+#include <span>
 #include <utility>
 
 namespace rddlc::passes {
@@ -26,7 +28,7 @@ class Indexing {
         ir::Node node = program_[id];
         ir::change_operands(node, [&](ir::NodeId& operand) { operand = rewritten(operand); });
         ir::NodeId result = builder_.rebuild(node);
-        // What is left may be an aggregation to which this applies again.
+        // The result may be an aggregation to which this applies again.
         if (const auto indexed = indexed_directly(result)) result = rewritten(*indexed);
         return done_[id] = result;
     }
@@ -37,7 +39,7 @@ class Indexing {
         const auto neutral = ir::fold_empty(reduce->op, program_[reduce->body].type);
         if (!neutral) return std::nullopt;
         const ir::VariableId variable = reduce->variable;
-        const Nest nest = nest_of(*reduce);
+        const ir::ReductionNest nest = *ir::reduction_nest(program_, id);
         if (has_place_of(variable, nest.body)) return std::nullopt;
         for (const Condition& condition : decisive_conditions(builder_, nest.body, *neutral)) {
             const auto object = find_(program_, builder_, condition, variable);
@@ -49,38 +51,26 @@ class Indexing {
 
     // ------------------------------------------------------------------------- the nest
 
-    // An aggregation and those of the same kind right inside of it.
-    struct Nest {
-        Reduction op;
-        std::vector<ir::VariableId> inner;
-        ir::NodeId body;
-    };
-    Nest nest_of(const ir::Reduce& outermost) const {
-        Nest nest{outermost.op, {}, outermost.body};
-        while (const auto* inner = std::get_if<ir::Reduce>(&program_[nest.body].form)) {
-            if (inner->op != nest.op || inner->bounds) break;
-            nest.inner.push_back(inner->variable);
-            nest.body = inner->body;
-        }
-        return nest;
+    // The inner variables are those without the variable of the object that is taken.
+    static std::span<const ir::VariableId> inner(const ir::ReductionNest& nest) {
+        return std::span(nest.variables).subspan(1);
     }
 
     // An object for each of the inner ones gives one sum in place of a sum for each object; in
     // which order reals are added matters.
-    bool adds_in_another_order(const Nest& nest, ir::NodeId object) const {
-        return program_[nest.body].type == ir::Scalar::Real && depends_on_any(object, nest.inner);
+    bool adds_in_another_order(const ir::ReductionNest& nest, ir::NodeId object) const {
+        return program_[nest.body].type == ir::Scalar::Real && depends_on_any(object, inner(nest));
     }
 
-    ir::NodeId over_inner(const Nest& nest, ir::NodeId body) {
-        for (auto variable = nest.inner.rbegin(); variable != nest.inner.rend(); ++variable)
-            body = builder_.reduce(nest.op, *variable, body);
-        return body;
+    ir::NodeId over_inner(const ir::ReductionNest& nest, ir::NodeId body) {
+        return ir::reduced(builder_, nest.op, inner(nest), body);
     }
 
-    // What the nest is, given the object.
-    ir::NodeId taken(const Nest& nest, ir::VariableId variable, const Condition& condition,
-                     const OnlyObject& object, const ir::Value& neutral) {
-        // What may fault is evaluated in any case: then the condition is tested in its place.
+    // The value of the nest, given the object.
+    ir::NodeId taken(const ir::ReductionNest& nest, ir::VariableId variable,
+                     const Condition& condition, const OnlyObject& object,
+                     const ir::Value& neutral) {
+        // A body that may fault is evaluated in any case, so the condition is tested in its place.
         const bool in_place = builder_.properties(nest.body).may_fault;
         const ir::NodeId exists = in_place ? object.exists : builder_.constant(true);
         std::map<ir::NodeId, ir::NodeId> known;
@@ -89,7 +79,7 @@ class Indexing {
         const ir::NodeId body = ir::replace_in(builder_, nest.body, known);
         const auto value = [&] {
             if (in_place) return over_inner(nest, body);
-            if (depends_on_any(object.exists, nest.inner))
+            if (depends_on_any(object.exists, inner(nest)))
                 return over_inner(nest, guarded(object.exists, body, neutral));
             return guarded(object.exists, over_inner(nest, body), neutral);
         };
@@ -115,7 +105,7 @@ class Indexing {
         });
     }
 
-    bool depends_on_any(ir::NodeId id, const std::vector<ir::VariableId>& variables) const {
+    bool depends_on_any(ir::NodeId id, std::span<const ir::VariableId> variables) const {
         return std::ranges::any_of(
             variables, [&](ir::VariableId variable) { return depends_on(id, variable); });
     }

@@ -45,7 +45,7 @@ bool is_possible_break(const ir::Value& value) {
 
 class Collector {
   public:
-    // Without an evaluator it collects no breaks.
+    // It collects no breaks if there is no evaluator.
     Collector(const ir::Builder& builder, const ir::Evaluator* evaluator)
         : builder_(builder), evaluator_(evaluator) {}
 

@@ -9,10 +9,6 @@
 namespace rddlc::passes {
 namespace {
 
-// In operations (Properties::cost), of evaluating one expression for many assignments, and of all
-// that is evaluated: a second or two.
-constexpr double affordable_for_relation = 4e6;
-constexpr double affordable_for_relations = 1e8;
 // Tables in which most elements are exceptions are looked through up to this size.
 constexpr std::int64_t most_examined_elements = std::int64_t{1} << 22;
 // Relations with more of all possible tuples than this do not help.
@@ -26,7 +22,7 @@ ir::Value opposite(const ir::Value& value) {
     return !std::get<bool>(value);
 }
 
-// What is converted to `value`, of the few that matter.
+// The operand whose conversion gives `value`, for the few values that matter.
 std::optional<ir::Value> before_conversion(const ir::Value& value, ir::Scalar from) {
     const double number = as_real(value);
     if (number != 0 && number != 1) return std::nullopt;
@@ -49,7 +45,7 @@ void add_new(std::vector<ir::NodeId>& nodes, const std::vector<ir::NodeId>& othe
 }  // namespace
 
 SparsityPattern::SparsityPattern(const ir::Builder& builder, const ir::Evaluator& evaluator)
-    : builder_(builder), evaluator_(evaluator), left_(affordable_for_relations) {}
+    : builder_(builder), evaluator_(evaluator) {}
 
 std::optional<Relation> SparsityPattern::of(ir::NodeId id, const ir::Value& value) {
     const ir::Node& node = program()[id];
@@ -101,7 +97,7 @@ std::optional<Relation> SparsityPattern::of_term(ir::NodeId id, std::vector<ir::
         [](const auto&) { return Found(); });
 }
 
-// By the zeros of `a`, if `b` is not known to be finite.
+// The pattern of the zeros of `a`, if `b` is not known to be finite.
 std::optional<Relation> SparsityPattern::of_doubtful_product(ir::NodeId a, ir::NodeId b,
                                                              std::vector<ir::NodeId>& doubtful) {
     if (properties(b).may_fault) return std::nullopt;
@@ -133,7 +129,7 @@ std::optional<Relation> SparsityPattern::by_trying_all(ir::NodeId id, const ir::
     return result;
 }
 
-// Without the tuples for which the node has that value, where they can be told.
+// The relation without the tuples for which the node is known to have that value.
 Relation SparsityPattern::narrowed(Relation relation, ir::NodeId id, const ir::Value& value) {
     const auto is_known = [&](ir::VariableId variable) {
         return relation.has(variable);
@@ -156,10 +152,7 @@ bool SparsityPattern::depend(std::span<const ir::NodeId> nodes, ir::VariableId v
 }
 
 bool SparsityPattern::affords(ir::NodeId id, double times) {
-    const double cost = std::max(properties(id).cost, 1.0) * times;
-    if (cost > affordable_for_relation || cost > left_) return false;
-    left_ -= cost;
-    return true;
+    return budget_.pay(std::max(properties(id).cost, 1.0) * times);
 }
 
 std::vector<Axis> SparsityPattern::axes_of(ir::NodeId id) const {
@@ -214,8 +207,8 @@ std::optional<Relation> SparsityPattern::of_common_elements(ir::NodeId id, const
     return narrowed(*all, id, value);
 }
 
-// The assignments for which some table of the expression has not its common element; none where
-// objects are used otherwise than to choose elements.
+// The assignments for which some table of the expression does not have its common element. Nothing
+// if objects are used for more than choosing elements.
 std::optional<Relation> SparsityPattern::entries_of_tables(ir::NodeId id) {
     const ir::Node& node = program()[id];
     if (properties(id).free_variables.empty()) return Relation{};
@@ -258,7 +251,8 @@ std::optional<Relation> SparsityPattern::of(const ir::Apply& apply, const ir::Va
     return op == Operator::Negate ? of(a, value) : std::nullopt;
 }
 
-// Of a loop index with something that does not depend on it: there is one such index for each.
+// Compares a loop index with a value that does not depend on it, so there is one such index for
+// each value.
 std::optional<Relation> SparsityPattern::of_equality(ir::NodeId a, ir::NodeId b) {
     const auto* index = std::get_if<ir::Index>(&program()[a].form);
     if (!index) {
@@ -286,7 +280,7 @@ std::optional<Relation> SparsityPattern::of_equality(ir::NodeId a, ir::NodeId b)
     return ordered(result, std::move(axes));
 }
 
-// 0 * x is 0 where x is finite, and no fault where x has none.
+// 0 * x is 0 if x is finite, and does not fault if x does not.
 std::optional<Relation> SparsityPattern::of_product(ir::NodeId a, ir::NodeId b,
                                                     const ir::Value& zero) {
     const auto is_harmless = [&](ir::NodeId id) {
@@ -344,7 +338,7 @@ std::optional<Relation> SparsityPattern::of(const ir::Sample& sample, const ir::
 
 // --------------------------------------------------------------------------- combinations
 
-// Of something that has the value wherever both operands have it.
+// The pattern of an operator that has the value wherever both operands have it.
 std::optional<Relation> SparsityPattern::either(ir::NodeId a, ir::NodeId b,
                                                 const ir::Value& value) {
     const Found first = of(a, value);

@@ -27,7 +27,7 @@ std::optional<Bound> bound(const ir::Program& program, ir::NodeId id) {
     return std::nullopt;
 }
 
-// Within bounds, both hold; beyond them, one of them does.
+// Both hold within the bounds; one of them holds beyond.
 bool is_upper(Operator op, Operator comparison) {
     return op == Operator::And
                ? comparison == Operator::Less || comparison == Operator::LessEqual

@@ -8,7 +8,7 @@
 namespace rddlc::passes {
 namespace {
 
-// In operations (Properties::cost): what costs more is not written down twice.
+// An expression of more operations (Properties::cost) is not written twice.
 constexpr double cheap_to_write_twice = 6;
 
 class Relaxing {

@@ -48,8 +48,8 @@ class Proof {
                 is_bounded(*upper, Side::AtLeast, *lower));
     }
 
-    // What an element of the state, or a constant, is after a step. Which element it is must not
-    // depend on the state, since that is another one after the step.
+    // The value of an element of the state, or of a constant, after a step. The choice of the
+    // element must not depend on the state, since that is another one after the step.
     std::optional<ir::NodeId> in_next_state(ir::NodeId id) {
         if (builder_.properties(id).uniform) return id;
         const auto form = program_[id].form;
@@ -70,7 +70,7 @@ class Proof {
         if (std::ranges::count_if(program_.step, fills) != 1) return nullptr;
         return &*std::ranges::find_if(program_.step, fills);
     }
-    // Of a definition that is loops around one statement.
+    // The definition consists of loops around one statement.
     std::optional<ir::NodeId> element(const ir::Definition& definition,
                                       const std::vector<ir::NodeId>& indices) {
         const ir::Block* body = &definition.body;

@@ -9,7 +9,7 @@
 namespace rddlc::passes {
 namespace {
 
-// In operations (Properties::cost): what costs more is not written down twice.
+// An expression of more operations (Properties::cost) is not written twice.
 constexpr double cheap_operand = 6;
 constexpr std::int64_t largest_int_exponent = 4;
 

@@ -14,17 +14,17 @@
 namespace rddlc::passes {
 namespace {
 
-// In units in the last place of the greatest element.
+// The greatest change of an element, in units in the last place of the greatest element.
 constexpr double greatest_change = 16;
 
-// In the reals of the simulator.
+// Real is the type of the simulator's reals.
 template <class Real>
 bool straighten(std::span<ir::Value> row) {
     const auto element = [&](std::size_t count) {
         return static_cast<Real>(std::get<double>(row[count]));
     };
     const Real first = element(0), last = element(row.size() - 1);
-    // What the second element of the line rises by, once that is rounded.
+    // The line rises by this difference, once it is rounded.
     const rddl::Line<Real> line{first, first + (element(1) - first) - first, last};
     const Real greatest = std::max(std::abs(first), std::abs(last));
     const Real change =
@@ -59,7 +59,7 @@ ir::Program straighten_rows(ir::Program program, Report& report) {
             program.real == RealType::Float ? straight<float> : straight<double>;
         auto lines =
             straight_in(buffer.values.dense(), static_cast<std::size_t>(buffer.shape.back()));
-        if (!lines) continue;
+        if (!lines || *lines == buffer.values.dense()) continue;
         buffer.values = std::move(*lines);
         ++report["tables of lines"];
     }

@@ -1,5 +1,6 @@
 #include "passes/constants/tabulate_constants.hpp"
 
+#include "ir/evaluation_budget.hpp"
 #include "ir/new_tables.hpp"
 #include "ir/rewrite.hpp"
 #include "passes/analyses/constant_values.hpp"
@@ -14,8 +15,6 @@ namespace {
 
 // An entry of a larger table must save as many operations as it has fellows, divided by this.
 constexpr double entries_for_an_operation = 32;
-// In operations (Properties::cost), for the whole table.
-constexpr double affordable_for_table = 4e6;
 
 // Finds the outermost expressions that are worth a table.
 class ConstantTabulation {
@@ -26,7 +25,7 @@ class ConstantTabulation {
           seen_(program.nodes.size()),
           evaluator_(std::as_const(program)) {}
 
-    // By the node that they replace; its free variables are their dimensions.
+    // A table for the node that it replaces; the node's free variables are its dimensions.
     struct Table {
         std::vector<ir::VariableId> variables;
         ir::Buffer buffer;
@@ -65,13 +64,13 @@ class ConstantTabulation {
             return false;
         if (is_element(id)) return false;
         const double entries = entries_over(properties.free_variables);
-        if (entries * properties.cost > affordable_for_table) return false;
+        if (!ir::EvaluationBudget::allows(entries * properties.cost)) return false;
         const std::int64_t largest = largest_table_in(id);
         return largest > 0 && entries <= std::max(static_cast<double>(largest),
                                                   (properties.cost - 2) * entries_for_an_operation);
     }
 
-    // Of a table already: the indices are no more than arithmetic.
+    // It is an element of a table already: the indices are no more than arithmetic.
     bool is_element(ir::NodeId id) const {
         const auto* load = std::get_if<ir::Load>(&program_[id].form);
         return load && std::ranges::none_of(load->indices, [&](ir::NodeId index) {
@@ -86,7 +85,7 @@ class ConstantTabulation {
         return entries;
     }
 
-    // In entries; 0 if the expression reads none.
+    // The size in entries; 0 if the expression reads no table.
     std::int64_t largest_table_in(ir::NodeId id) const {
         std::int64_t largest = 0;
         if (const auto* load = std::get_if<ir::Load>(&program_[id].form))

@@ -13,7 +13,7 @@
 namespace rddlc::passes {
 namespace {
 
-// In operations (Properties::cost): what is worth writing a value to a table and reading it again.
+// Operations (Properties::cost) that are worth writing a value to a table and reading it again.
 constexpr double worth_separating = 10;
 
 using Variables = std::vector<ir::VariableId>;

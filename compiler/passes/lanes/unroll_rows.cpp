@@ -13,7 +13,7 @@
 namespace rddlc::passes {
 namespace {
 
-// In operations (Properties::cost) of all iterations: what is not too much text.
+// More operations (Properties::cost) of all iterations are too much text.
 constexpr double most_operations = 1000;
 // And in operations beside the sums of an iteration: more of them are worth a loop, which may run
 // over several objects at once.
@@ -70,7 +70,7 @@ class Unrolling {
                                    [&](ir::NodeId operand) { return has_place(operand); });
     }
 
-    // Of the sums over rows that are evaluated in any case.
+    // The cost of the sums over rows that are evaluated in any case.
     double cost_of_sums(ir::NodeId id) const {
         const ir::Node& node = program_[id];
         if (is_sum_over_row(node)) return builder_.properties(id).cost;
@@ -85,7 +85,7 @@ class Unrolling {
                ir::row_of(program_, *sum->bounds);
     }
 
-    // For all values of these variables, given those of the ones outside of them.
+    // Unrolls all values of these variables, given those of the outer ones.
     void unroll(const ir::Store& store, std::span<const ir::VariableId> variables,
                 const Known& outer, ir::Block& result) {
         if (variables.empty()) return result.push_back({unrolled(store, outer)});

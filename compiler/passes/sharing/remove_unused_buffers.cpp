@@ -52,7 +52,7 @@ class Pruning {
                       [](const ir::Definition& definition) { return definition.body.empty(); });
     }
 
-    // What is left of a fluent that nobody reads may be a table that others do read.
+    // The rest of an unread fluent may be a table that other definitions read.
     void prune(ir::Definition& definition) {
         prune(definition.body);
         const std::set<ir::BufferId> written = ir::written_buffers(definition.body);
@@ -117,8 +117,8 @@ class Pruning {
     std::vector<bool> reached_;    // by NodeId::index
 };
 
-// By BufferId::index: read by something that the program evaluates, filled by it, or part of a
-// record that others see.
+// Buffers that an evaluated expression reads, that such a statement fills, or that are part of a
+// record. By BufferId::index.
 std::vector<bool> used_buffers(const ir::Program& program) {
     std::vector<bool> used;
     for (const ir::Buffer& buffer : program.buffers)

@@ -14,8 +14,8 @@
 namespace rddlc::passes {
 namespace {
 
-// In operations (Properties::cost): what is worth an element, what an element costs, and what may
-// be computed although no branch needs it.
+// Operations (Properties::cost) that are worth an element, those of an element, and those that may
+// be computed although no branch needs them.
 constexpr double worth_an_element = 15;
 constexpr double cost_of_shared_element = 2;
 constexpr double cheap_enough_to_try = 64;
@@ -26,7 +26,7 @@ struct UseByDefinition {
     double times = 0;     // evaluations in a step
     bool always = false;  // and not in a branch
 };
-// By users, which are the CPFs in their order, and then the reward.
+// The users are the CPFs in their order, and then the reward.
 using UsesByDefinition = std::map<std::size_t, UseByDefinition>;
 
 class DefinitionSharing {
@@ -88,7 +88,8 @@ class DefinitionSharing {
         use.always |= more.always;
     }
 
-    // Behind which users all is there that a node reads. A local value is there for no other user.
+    // The first user behind which everything is there that a node reads. A local value is there for
+    // one user only.
     void find_available() {
         std::map<ir::BufferId, std::size_t> filled;
         for (std::size_t user = 0; user <= program_.step.size(); ++user) {
@@ -110,8 +111,8 @@ class DefinitionSharing {
 
     // ---------------------------------------------------------------------------- choosing
 
-    // From the roots down, so that the outermost expressions that are worth it are found first;
-    // users come behind their operands in the pool.
+    // Visits the roots first, so that it finds the outermost expressions that are worth it; users
+    // come behind their operands in the pool.
     void choose() {
         for (const auto& [id, uses] : uses_) {
             if (is_worthwhile(id, uses) && available_[id.index] <= uses.begin()->first) {

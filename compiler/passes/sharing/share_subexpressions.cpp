@@ -13,7 +13,7 @@
 namespace rddlc::passes {
 namespace {
 
-// In operations (Properties::cost).
+// Operations (Properties::cost) that are worth a name.
 constexpr double worth_a_name = 6;
 
 // How a node below a statement is used.
@@ -24,8 +24,8 @@ struct Use {
     int count = 0;          // by different nodes, or twice by one
 };
 
-// Of all nodes below a statement, users before their operands. No statement looks at nodes of
-// others, or the time would be the square of the program's length.
+// The uses of all nodes below a statement, users before their operands. A statement does not look
+// at the nodes of others, or the time would be the square of the program's length.
 using Uses = std::map<ir::NodeId, Use, std::greater<>>;
 
 class Sharing {
@@ -102,7 +102,7 @@ class Sharing {
         ++use.count;
     }
 
-    // From the roots down: users come behind their operands in the pool.
+    // Visits the roots first: users come behind their operands in the pool.
     void spread(Uses& uses) const {
         for (const auto& [id, use] : uses) {
             const ir::Node& node = program_[id];
@@ -149,7 +149,7 @@ class Sharing {
         return lets;
     }
 
-    // In the order of the pool, so that each may use those before it.
+    // Defines them in the order of the pool, so that each may use those before it.
     std::vector<ir::NodeId> choose(const Uses& uses, const std::set<ir::BufferId>& stored) const {
         const std::set<ir::NodeId> fixed = fixed_nodes(uses, stored);
         const std::set<ir::NodeId> exposed = exposed_nodes(uses, fixed);
