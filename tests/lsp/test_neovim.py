@@ -1,4 +1,4 @@
-"""The first problem of test_lsp.py in a headless Neovim.
+"""The first problem of test_diagnostics.py in a headless Neovim.
 
     RDDLC_BIN=build/bin test_neovim.py
 """
