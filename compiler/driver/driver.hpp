@@ -16,6 +16,7 @@
 #include <chrono>
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <optional>
 #include <set>
 #include <string>
@@ -39,6 +40,8 @@ struct CompileOptions {
     std::vector<std::filesystem::path> inputs;    // domain and instance, or one file with both
     std::optional<std::filesystem::path> policy;  // of which the policy block alone is taken
     std::string instance;                         // its name; empty: the last one
+    // Texts of inputs by their paths, to be taken instead of the files, such as those in an editor.
+    std::map<std::filesystem::path, std::string> texts;
     // .cpp, .hpp or .so; absent: nothing is written.
     std::optional<std::filesystem::path> output;
     // C++ headers that define the external functions.
