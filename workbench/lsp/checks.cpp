@@ -42,7 +42,7 @@ bool names_non_fluents_of(const File& instance, const File& file) {
     });
 }
 
-// The instances that are checked with a file that has none: all that are open, else the first.
+// The instances to check with a file that holds none itself: all open ones, else the first.
 std::vector<FilePtr> instances_for(const Family& family, const File& file) {
     std::vector<FilePtr> instances;
     const bool is_domain = family.domain && family.domain->uri == file.uri;
@@ -107,7 +107,7 @@ class Checker {
 
     Json range(Span span) const { return files_[span.file]->text.range({span.begin, span.end}); }
 
-    // What has no place is shown at the name of the first block.
+    // A diagnostic without a place is shown at the name of the first block.
     static Json range_of_whole(const File& file) {
         const auto& blocks = file.outline.blocks;
         return file.text.range(blocks.empty() ? Place{} : blocks.front().name.place);

@@ -17,14 +17,14 @@ struct QuickFix {
     std::size_t diagnostic;  // index into FileChecks::diagnostics
 };
 
-// What was found in one state of a file.
+// The diagnostics of one version of a file.
 struct FileChecks {
     std::optional<std::int64_t> version;
     std::vector<Json> diagnostics;  // as published
     std::vector<QuickFix> fixes;
 };
 
-// By URI. Files of the problems without any diagnostic are also there.
+// The results by URI. Files of the problems without any diagnostic are also there.
 using Checks = std::map<std::string, FileChecks>;
 
 // Checks the problems of all open files. Pure, so that it may run beside the server.

@@ -1,4 +1,4 @@
-// What is wanted at a cursor.
+// The kind of name that a cursor asks for.
 #pragma once
 
 #include "lsp/lookup.hpp"

@@ -26,7 +26,7 @@ struct TypeSite {
     const TypeDeclaration* declaration;
 };
 
-// What a cursor is on.
+// The name at a cursor.
 struct Symbol {
     Meaning meaning;  // never FluentOrObject
     std::string_view name;
@@ -52,7 +52,7 @@ class Lookup {
     std::vector<TypeSite> types() const;
     // The type of an object or value.
     std::string_view type_of_object(std::string_view name) const;
-    // Of the type of a variable: as it is written, or as the parameter of the CPF that binds it.
+    // The type of a variable: as it is written, or as the parameter of the CPF that binds it.
     std::string_view type_of_binding(const Binding& binding) const;
 
     // Members of an enumerated type, or the objects of the instance that counts here; nothing if

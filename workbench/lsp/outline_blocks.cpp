@@ -34,7 +34,7 @@ constexpr std::string_view sections[] = {"requirements",
                                          "non-fluents",
                                          "domain"};
 
-// What stands behind the name of an item; empty where items have no names.
+// The text behind the name of an item; empty if such items have no names.
 std::string_view separator_of(std::string_view section) {
     if (section == "types" || section == "pvariables" || section == "objects") return ":";
     const bool has_names = section == "cpfs" || section == "cdfs" || section == "init-state" ||

@@ -8,7 +8,7 @@ namespace rddlc::lsp {
 
 namespace {
 
-// From grammar/RDDL.g4 (tests/workbench compares).
+// These words stand in grammar/RDDL.g4 (tests/lsp compares).
 const std::unordered_set<std::string_view>& reserved_words() {
     static const std::unordered_set<std::string_view> words = {"domain",
                                                                "non-fluents",

@@ -39,7 +39,7 @@ class OutlineReader {
     std::size_t end_of_body(std::size_t at, std::size_t end) const;
     void read_variable(std::size_t at);
 
-    // What tokens are.
+    // The kinds of tokens.
     std::string_view word(std::size_t at) const {
         return at < tokens_.size() ? tokens_[at].text : std::string_view();
     }

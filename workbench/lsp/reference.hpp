@@ -1,4 +1,4 @@
-// What RDDL's own words mean: from the vocabulary and from pages of docs/, which are built in.
+// The meaning of RDDL's own words, from the vocabulary and from pages of docs/, which are built in.
 #pragma once
 
 #include "support/diagnostic.hpp"
@@ -13,7 +13,7 @@ namespace pages {
 extern const std::string_view semantics, distributions;
 }
 
-// In Markdown; empty for other words.
+// The text in Markdown; empty for other words.
 std::string explanation_of(std::string_view word);
 
 // The page of docs/diagnostics without its example, in Markdown.

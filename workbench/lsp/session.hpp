@@ -32,7 +32,7 @@ class Session {
     // Whether texts have changed since the last call.
     bool take_change();
     CheckRequest check_request() const;
-    // What to publish; nothing of texts that have changed since.
+    // The diagnostics to publish, without those of texts that have changed since.
     std::vector<Json> publish(Checks checks);
 
     bool has_ended() const { return has_ended_; }

@@ -41,7 +41,8 @@ bool belongs_to(const File& file, const std::set<std::string_view>& domains) {
                                [&](std::string_view name) { return domains.contains(name); });
 }
 
-// Of several files that declare it: the one that is asked about, an open one, domain.rddl, any.
+// The file to use if several declare it: the one that the user asked about, an open one,
+// domain.rddl, any.
 int rank_of_domain(const File& file, const File& asked) {
     if (file.uri == asked.uri) return 0;
     if (file.version) return 1;

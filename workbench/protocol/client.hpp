@@ -15,7 +15,7 @@
 
 namespace rddlc::workbench {
 
-// What the server says of itself.
+// The server's description of itself.
 struct SessionInit {
     std::string task;  // domain and instance; "" where the server sends none
     std::int64_t rounds = 0;
