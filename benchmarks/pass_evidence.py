@@ -22,6 +22,9 @@ from pathlib import Path
 from bench import Results, bench, geometric_mean, print_row
 from document import ROOT, machine_text, markdown_table, write_section
 
+sys.path.append(str(ROOT / "tests/conformance"))
+from problems import Case, cases_of  # noqa: E402
+
 
 @dataclass
 class Firing:
@@ -48,20 +51,15 @@ class Worth:
     in_batch_without: float
 
 
-def all_instances(rddl: Path) -> list[tuple[str, str, Path]]:
-    problems = json.loads(subprocess.check_output([rddl, "list", "--json"]))
-    return [(p["name"], i, Path(p["folder"])) for p in problems for i in p["instances"]]
-
-
-def stats_of(rddlc: Path, folder: Path, instance: str) -> list[dict]:
-    command = [rddlc, folder / "domain.rddl", folder / f"instance{instance}.rddl"]
+def stats_of(rddlc: Path, case: Case) -> list[dict]:
+    command = [rddlc, case.domain_path, case.instance_path]
     return json.loads(subprocess.check_output([*command, "--stats=json", "--stop-after=optimise", "-w"]))
 
 
-def firings_of(rddlc: Path, problem: str, instance: str, folder: Path) -> tuple[list[str], list[Firing]]:
+def firings_of(rddlc: Path, case: Case) -> tuple[list[str], list[Firing]]:
     """The names of all passes in their order, and what those did that fired. A pass that runs twice counts once."""
     runs = defaultdict(list)
-    for run in stats_of(rddlc, folder, instance):
+    for run in stats_of(rddlc, case):
         runs[run["pass"]].append(run)
     fired = []
     for name, of_pass in runs.items():
@@ -69,18 +67,18 @@ def firings_of(rddlc: Path, problem: str, instance: str, folder: Path) -> tuple[
         change = sum(run["operations"]["after"] - run["operations"]["before"] for run in of_pass)
         before = of_pass[0]["operations"]["before"]
         if times > 0:
-            fired.append(Firing(name, problem, instance, times, before, before + change))
+            fired.append(Firing(name, case.problem, case.instance, times, before, before + change))
     return list(runs), fired
 
 
 def count(options: argparse.Namespace) -> tuple[list[str], list[Firing], int]:
-    instances = all_instances(options.rddl)
+    cases = cases_of([])
     names: list[str] = []
     firings: list[Firing] = []
     with ThreadPoolExecutor(options.jobs) as pool:
-        for names, fired in pool.map(lambda one: firings_of(options.rddlc, *one), instances):
+        for names, fired in pool.map(lambda case: firings_of(options.rddlc, case), cases):
             firings += fired
-    return names, firings, len(instances)
+    return names, firings, len(cases)
 
 
 def sample(firings: list[Firing], most: int) -> list[Firing]:

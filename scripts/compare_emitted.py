@@ -17,6 +17,8 @@ import sys
 import time
 from pathlib import Path
 
+from repository import add_problems, problems, split_options
+
 LEXEME = re.compile(
     r"//[^\n]*|/\*.*?\*/|\s+"
     r'|(?P<string>"(?:[^"\\\n]|\\.)*")'
@@ -26,22 +28,18 @@ LEXEME = re.compile(
 
 
 def main():
-    words, options = sys.argv[1:], []
-    if "--" in words:
-        place = words.index("--")
-        words, options = words[:place], words[place + 1 :]
+    words, options = split_options(sys.argv[1:])
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("old", type=Path)
     parser.add_argument("--new", type=Path, default=Path("build/bin/rddlc"))
-    parser.add_argument("--rddl", type=Path, default=Path("build/bin/rddl"), help="lists the problems")
     parser.add_argument("--kept", type=Path, help="hashes of the old text")
     parser.add_argument("--lines", type=int, default=12, help="of each difference")
-    parser.add_argument("names", nargs="*", metavar="NAME", help="of problems; none: all")
+    add_problems(parser)
     arguments = parser.parse_intermixed_args(words)
 
     kept = json.loads(arguments.kept.read_text()) if arguments.kept and arguments.kept.exists() else {}
     count, different, seconds = 0, 0, {"old": 0.0, "new": 0.0}
-    for label, folder, files in instances(arguments.rddl, arguments.names):
+    for label, folder, files in instances(arguments):
         count += 1
         key = " ".join([label, *options])
         old = None
@@ -60,10 +58,8 @@ def main():
     return 1 if different or count == 0 else 0
 
 
-def instances(rddl, names):
-    for problem in json.loads(subprocess.check_output([rddl, "list", "--json"])):
-        if names and problem["name"] not in names:
-            continue
+def instances(arguments):
+    for problem in problems(arguments):
         for instance in problem["instances"]:
             folder = Path(problem["folder"])
             yield f"{problem['name']} {instance}", folder, ["domain.rddl", f"instance{instance}.rddl"]

@@ -14,20 +14,18 @@ import subprocess
 import sys
 from pathlib import Path
 
+from repository import add_problems, problems, split_options
+
 
 def main():
-    words, options = sys.argv[1:], []
-    if "--" in words:
-        place = words.index("--")
-        words, options = words[:place], words[place + 1 :]
+    words, options = split_options(sys.argv[1:])
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--rddl", type=Path, default=Path("build/bin/rddl"))
     parser.add_argument("--out", type=Path, default=Path("build/verify"))
     parser.add_argument("--anew", action="store_true", help="verify all again")
     parser.add_argument(
         "--need-pyrddlgym", action="store_true", help="fail where pyRDDLGym is not compared"
     )
-    parser.add_argument("names", nargs="*", metavar="NAME", help="of problems; none: all")
+    add_problems(parser)
     arguments = parser.parse_args(words)
     arguments.out.mkdir(parents=True, exist_ok=True)
 
@@ -35,7 +33,8 @@ def main():
     reports = []
     program = hashlib.sha256(arguments.rddl.read_bytes()).hexdigest()
     asked = {"options": options, "program": program}
-    for name, instance in problems(arguments.rddl, arguments.names):
+    for problem in problems(arguments):
+        name, instance = problem["name"], problem["instances"][0]
         report = report_of(arguments, name, instance, asked)
         reports.append(report)
         print(row(f"{name} {instance}", report), flush=True)
@@ -43,13 +42,6 @@ def main():
     alone = sum("values" not in report.get("pyrddlgym", {}) for report in reports)
     print(f"\n{len(reports)} problems, {wrong} of them do not agree;", totals(reports))
     return 1 if wrong or not reports or (arguments.need_pyrddlgym and alone) else 0
-
-
-def problems(rddl, names):
-    listed = json.loads(subprocess.check_output([rddl, "list", "--json"]))
-    for problem in listed:
-        if not names or problem["name"] in names:
-            yield problem["name"], problem["instances"][0]
 
 
 def report_of(arguments, name, instance, asked):

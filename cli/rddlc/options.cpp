@@ -52,6 +52,7 @@ struct Arguments {
     std::string real = "double";
     std::int64_t memory_limit = default_memory_limit;
     std::string explanation;
+    bool list_passes = false;
     std::vector<std::string> without;
     bool fast_math = false;
     std::string statistics;  // "true" without a format
@@ -60,7 +61,7 @@ struct Arguments {
 
 // The list of passes for --help.
 std::string list_of_passes() {
-    std::string text = "Optimisations, in their order:\n";
+    std::string text = "Optimisations, in their order (--passes gives the reasons):\n";
     for (const PassDescription& pass : all_passes())
         text += fmt::format("  {:30}  {}\n", pass.name, pass.summary);
     return text;
@@ -139,6 +140,10 @@ void add_diagnostic_options(Command& command, Arguments& arguments) {
     add_text_option(command, "--color", "WHEN", "auto (default), always or never", arguments.color)
         .choices = {"auto", "always", "never"};
     add_explain_option(command, arguments.explanation);
+    add_flag(command, "--passes",
+             "print the optimisations in their order, with the reasons, and exit",
+             arguments.list_passes)
+        .is_enough = true;
     add_flag(command, "-v,--verbose", "report how long each stage takes", arguments.verbose);
 }
 
@@ -327,7 +332,7 @@ Options options_of(const Arguments& arguments) {
     options.render.format =
         arguments.format == "json" ? DiagnosticsFormat::Json : DiagnosticsFormat::Text;
     options.render.color = use_color(arguments.color);
-    options.explanation = arguments.explanation;
+    options.explanation = arguments.list_passes ? pipeline_text() : arguments.explanation;
     if (!options.explanation.empty()) return options;
     options.statistics = statistics_format(arguments.statistics);
     options.compile = compile_options(arguments);

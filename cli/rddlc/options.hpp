@@ -17,7 +17,7 @@ struct Options {
     RenderOptions render;
     Statistics statistics = Statistics::None;
     bool verbose = false;
-    std::string explanation;  // the code for --explain; else empty
+    std::string explanation;  // printed in place of compiling: --explain, --passes; else empty
 };
 
 // Its command line, which leads to `run` unless there is a mistake.

@@ -617,7 +617,7 @@ std::vector<std::string> verify(const Program& program) {
     return Verifier(program).complaints();
 }
 
-void expect_valid(const Program& program, const char* stage) {
+void expect_valid(const Program& program, std::string_view stage) {
     const std::vector<std::string> complaints = verify(program);
     if (complaints.empty()) return;
     own_mistake(fmt::format("the program is malformed after {}:\n{}\n", stage,

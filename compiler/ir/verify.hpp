@@ -4,6 +4,7 @@
 #include "ir/ir.hpp"
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace rddlc::ir {
@@ -12,6 +13,6 @@ namespace rddlc::ir {
 std::vector<std::string> verify(const Program& program);
 
 // Stops the process with the complaints, if there are any. For debug builds, between stages.
-void expect_valid(const Program& program, const char* stage);
+void expect_valid(const Program& program, std::string_view stage);
 
 }  // namespace rddlc::ir

@@ -1,11 +1,12 @@
-// The optimisations. Each keeps the value of every fluent bit for bit, except where its header says
-// that sums of reals may be rounded differently; fast_math, which runs on request, keeps less.
+// The optimisations. Each keeps the value of every fluent bit for bit. Those that run with
+// --fast-math only keep less (docs/fast-math.md).
 #pragma once
 
 #include "ir/ir.hpp"
 #include "passes/report.hpp"
 
 #include <chrono>
+#include <cstdint>
 #include <functional>
 #include <set>
 #include <string>
@@ -14,13 +15,26 @@
 
 namespace rddlc {
 
+// What a pass works on; the folder that it stands in.
+enum class Phase : std::uint8_t { Constants, Arithmetic, Aggregations, Sharing, Lanes };
+std::string_view name_of(Phase phase);  // "constants"
+
 struct PassDescription {
     std::string_view name;
-    std::string_view summary;
-    bool only_fast_math;  // runs only with PassOptions::fast_math
+    Phase phase;
+    std::string_view summary;             // what it does
+    std::vector<std::string_view> after;  // passes that have to run before it
+    std::string_view because;             // why it stands where it stands
+    bool only_fast_math;                  // runs only with PassOptions::fast_math
 };
 // In the order in which they run first; each once.
 std::vector<PassDescription> all_passes();
+// The pipeline as a text: a paragraph for each pass.
+std::string pipeline_text();
+
+// The postcondition of a pass: whether a second run would change nothing, or cost more. Throws
+// std::out_of_range if there is no pass of that name.
+bool is_finished(std::string_view pass, const ir::Program& program);
 
 // How large a program is.
 struct ProgramSize {

@@ -19,8 +19,8 @@ from numpy.typing import NDArray
 from . import _native, causes
 from .arguments import one_of, options_of_reset, seed_of, seed_or_none, size_of, whole_or_none
 from .errors import ArgumentError, EpisodeOver, Error
-from .model import Model
 from .preconditions import check_preconditions
+from .problem_properties import ProblemProperties
 from .problems import Problem, batch_horizon
 from .records import lifted_views
 from .rendering import Renderer
@@ -37,7 +37,7 @@ OBSERVATIONS = ("dict", "flat")
 ACTIONS = ("dict", "simplified", "box")
 
 
-class RDDLEnv(gymnasium.Env[Any, Any]):
+class RDDLEnv(ProblemProperties, gymnasium.Env[Any, Any]):
     """A problem as a Gymnasium environment, stepped by its compiled simulator.
 
     The same seed gives the same episodes as `rddl run --seed`, bit for bit.
@@ -153,25 +153,6 @@ class RDDLEnv(gymnasium.Env[Any, Any]):
         if given is not None and given.max_episode_steps is None:
             given = replace(given, max_episode_steps=self.horizon or None)
         self._spec = given
-
-    @property
-    def model(self) -> Model:
-        return self.problem.model
-
-    @property
-    def horizon(self) -> int:
-        """Steps until an episode is cut off; 0: never."""
-        given = self._forms["horizon"]
-        return self.model.horizon if given is None else given
-
-    @property
-    def discount(self) -> float:
-        return self.model.discount
-
-    @property
-    def max_allowed_actions(self) -> int:
-        """How many action values may differ from their default."""
-        return self.model.max_allowed_actions
 
     @property
     def state(self) -> dict[str, Any]:

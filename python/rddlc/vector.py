@@ -27,8 +27,8 @@ from .arguments import (
     whole_or_none,
 )
 from .errors import ArgumentError, EpisodeOver
-from .model import Model
 from .preconditions import check_preconditions
+from .problem_properties import ProblemProperties
 from .problems import Problem, batch_horizon
 from .rendering import Renderer
 from .states import State
@@ -46,7 +46,7 @@ AUTORESET = {AutoresetMode.DISABLED: 0, AutoresetMode.NEXT_STEP: 1, AutoresetMod
 CAUSE_TEXTS = np.array(causes.TEXTS, object)
 
 
-class RDDLVectorEnv(VectorEnv[Any, Any, NDArray[Any]]):
+class RDDLVectorEnv(ProblemProperties, VectorEnv[Any, Any, NDArray[Any]]):
     """Environments of one problem in the batch engine, with threads of its own.
 
     Environment i of reset(seed=s) has the episodes of one `rddlc.make` with the seed s + i.
@@ -147,25 +147,6 @@ class RDDLVectorEnv(VectorEnv[Any, Any, NDArray[Any]]):
         )
 
     # ---- what the problem says of itself
-
-    @property
-    def model(self) -> Model:
-        return self.problem.model
-
-    @property
-    def horizon(self) -> int:
-        """Steps until an episode is cut off; 0: never."""
-        given = self._forms["horizon"]
-        return self.model.horizon if given is None else given
-
-    @property
-    def discount(self) -> float:
-        return self.model.discount
-
-    @property
-    def max_allowed_actions(self) -> int:
-        """How many action values may differ from their default."""
-        return self.model.max_allowed_actions
 
     @property
     def state(self) -> dict[str, NDArray[Any]]:

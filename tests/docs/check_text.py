@@ -18,7 +18,7 @@ from pathlib import Path
 from pages import COMMAND, PRINTED, ROOT, RUN, blocks, pages, pages_of_diagnostics
 
 COMMANDS = "sh"
-LANGUAGES = {RUN, PRINTED, COMMANDS, "rddl", "c++", "c", "cmake", "python", "ebnf", "json"}
+LANGUAGES = {RUN, PRINTED, COMMANDS, "rddl", "c++", "c", "cmake", "python", "ebnf", "json", "mermaid"}
 
 CODE = re.compile(r"`([^`\n]+)`")
 LINK = re.compile(r"\]\(([^)\s]+)\)")

@@ -77,6 +77,8 @@ Contracts check_alone(const ir::Program& program, const PassOptions& options, Va
         Made now = {std::string(run.name), made};
         const bool differs = !same_program(history.back(), now);
         if (reports || differs) ++result.changed[std::string(run.name)];
+        if (!is_finished(run.name, made))
+            result.breaches.push_back({std::string(run.name), "a second run would change more"});
         if (!differs) return;
         history.push_back(std::move(now));
         if (const auto complaints = complaints_about(made)) {

@@ -9,11 +9,39 @@
 #include "texts.hpp"
 
 #include <algorithm>
+#include <stdexcept>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace rddlc {
 namespace {
+
+TEST(Pipeline, SaysWhatEachPassDoesAndWhy) {
+    EXPECT_NE(pipeline_text().find("make_aggregations_sparse (aggregations)\n"
+                                   "    aggregations run over the entries of sparse tables\n"
+                                   "    after index_directly and hoist_aggregations: "),
+              std::string::npos);
+    for (const PassDescription& pass : all_passes()) EXPECT_FALSE(pass.because.empty());
+}
+
+TEST(Pipeline, KnowsWhetherAPassIsFinished) {
+    const ir::Program program = grounded(with_tables("sum_{?o : obj} v(?o) * SAME(?o)"));
+    EXPECT_FALSE(is_finished("fold_uniform_tables", program));
+    passes::Report report;
+    EXPECT_TRUE(is_finished("fold_uniform_tables", passes::fold_uniform_tables(program, report)));
+    EXPECT_THROW(is_finished("no_such_pass", program), std::out_of_range);
+}
+
+TEST(Pipeline, FinishesEachPass) {
+    const ir::Program program = grounded(
+        with_tables("x + sum_{?o : obj, ?u : obj} [NONE(?o, ?u) * W(?o) + v(?u) * SAME(?o)]"));
+    PassOptions options;
+    options.observe = [](const PassRun& run, const ir::Program& made) {
+        EXPECT_TRUE(is_finished(run.name, made)) << run.name;
+    };
+    optimise(program, options);
+}
 
 TEST(FoldUniformTables, ReplacesLoadsByTheValue) {
     const Texts x = of_x("sum_{?o : obj} v(?o) * SAME(?o) * W(?o)", passes::fold_uniform_tables);

@@ -1,6 +1,7 @@
 // Over 400 lines: finding the entries, writing their tables and rewriting the nest share one state.
 #include "passes/aggregations/make_aggregations_sparse.hpp"
 
+#include "ir/evaluation_budget.hpp"
 #include "ir/fold.hpp"
 #include "ir/rewrite.hpp"
 #include "passes/aggregations/entry_tables.hpp"
@@ -20,9 +21,7 @@ constexpr double cost_of_entry = 3;
 constexpr double cheap_loop = 12;
 // Rows beyond this number must have entries.
 constexpr double most_empty_rows = 1e6;
-// In operations, of computing one table of entries.
-constexpr double affordable_for_entries = 1e8;
-// Of all aggregations: each takes a few numbers in the emitted text.
+// The entries of all aggregations: each takes a few numbers in the emitted text.
 constexpr std::int64_t most_entries_in_all = std::int64_t{1} << 20;
 
 // The aggregation that is being rewritten: its objects are those of an entry now.
@@ -132,8 +131,8 @@ class Rewriting {
             return scope.relation.has(variable);
         };
         return properties.uniform && std::ranges::all_of(properties.free_variables, is_known) &&
-               properties.cost * static_cast<double>(scope.relation.count()) <=
-                   affordable_for_entries &&
+               ir::EvaluationBudget::allows(properties.cost *
+                                            static_cast<double>(scope.relation.count())) &&
                (program_[id].type != ir::Scalar::Int || reads_table(id));
     }
 

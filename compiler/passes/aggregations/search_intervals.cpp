@@ -1,5 +1,6 @@
 #include "passes/aggregations/search_intervals.hpp"
 
+#include "ir/evaluation_budget.hpp"
 #include "ir/rewrite.hpp"
 #include "passes/aggregations/take_only_objects.hpp"
 #include "passes/analyses/constant_values.hpp"
@@ -13,10 +14,6 @@
 namespace rddlc::passes {
 namespace {
 
-// In operations (Properties::cost), of evaluating an expression for all pieces.
-constexpr double affordable_for_pieces = 1e7;
-// The same for all expressions.
-constexpr double affordable_for_all_pieces = 1e8;
 // What costs less than this many times a search stays as it is.
 constexpr double worth_a_search = 2;
 
@@ -27,13 +24,10 @@ class Trying {
     Trying(ir::Builder& builder, const ir::Evaluator& evaluator, ir::LocalId local)
         : builder_(builder), evaluator_(evaluator), local_(local) {}
 
-    // `left` is what may be spent; it gets less.
-    bool is_affordable(ir::NodeId id, const PiecewiseConstant& pieces, double& left) const {
-        const double cost =
-            builder_.properties(id).cost * static_cast<double>(pieces.breaks.size() + 2);
-        if (cost > affordable_for_pieces || cost > left) return false;
-        left -= cost;
-        return true;
+    // Pays for an expression in all pieces.
+    bool pay(ir::EvaluationBudget& budget, ir::NodeId id, const PiecewiseConstant& pieces) const {
+        return budget.pay(builder_.properties(id).cost *
+                          static_cast<double>(pieces.breaks.size() + 2));
     }
 
     // Each by the objects of the variables, row-major. None if nan behaves like no piece.
@@ -134,7 +128,7 @@ class PieceTabulation {
         auto pieces = piecewise_constant_of(builder_, evaluator_, id);
         if (!pieces) return std::nullopt;
         Trying trying(builder_, evaluator_, local_);
-        if (!trying.is_affordable(id, *pieces, left_)) return std::nullopt;
+        if (!trying.pay(budget_, id, *pieces)) return std::nullopt;
         const auto tried = trying.of(id, *pieces, {});
         if (!tried) return std::nullopt;
         std::vector<ir::Value> values;
@@ -155,7 +149,7 @@ class PieceTabulation {
     ir::LocalId local_;  // stands for a number that is tried
     ir::Builder builder_;
     ir::Evaluator evaluator_;
-    double left_ = affordable_for_all_pieces;
+    ir::EvaluationBudget budget_;
 };
 
 // -------------------------------------------------------------- one object in each piece
@@ -175,7 +169,7 @@ class ObjectsOfPieces {
         know(program);
         const auto pieces = piecewise_constant_of(builder, *evaluator_, condition.id);
         Trying trying(builder, *evaluator_, local_);
-        if (!pieces || !trying.is_affordable(condition.id, *pieces, left_)) return std::nullopt;
+        if (!pieces || !trying.pay(budget_, condition.id, *pieces)) return std::nullopt;
         const auto tried = trying.of(condition.id, *pieces, {variable});
         if (!tried) return std::nullopt;
 
@@ -206,7 +200,7 @@ class ObjectsOfPieces {
     Report& report_;
     std::optional<ir::Evaluator> evaluator_;
     ir::LocalId local_{};  // stands for a number that is tried
-    double left_ = affordable_for_all_pieces;
+    ir::EvaluationBudget budget_;
 };
 
 }  // namespace

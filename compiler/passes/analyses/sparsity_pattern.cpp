@@ -9,10 +9,6 @@
 namespace rddlc::passes {
 namespace {
 
-// In operations (Properties::cost), of evaluating one expression for many assignments, and of all
-// that is evaluated: a second or two.
-constexpr double affordable_for_relation = 4e6;
-constexpr double affordable_for_relations = 1e8;
 // Tables in which most elements are exceptions are looked through up to this size.
 constexpr std::int64_t most_examined_elements = std::int64_t{1} << 22;
 // Relations with more of all possible tuples than this do not help.
@@ -49,7 +45,7 @@ void add_new(std::vector<ir::NodeId>& nodes, const std::vector<ir::NodeId>& othe
 }  // namespace
 
 SparsityPattern::SparsityPattern(const ir::Builder& builder, const ir::Evaluator& evaluator)
-    : builder_(builder), evaluator_(evaluator), left_(affordable_for_relations) {}
+    : builder_(builder), evaluator_(evaluator) {}
 
 std::optional<Relation> SparsityPattern::of(ir::NodeId id, const ir::Value& value) {
     const ir::Node& node = program()[id];
@@ -156,10 +152,7 @@ bool SparsityPattern::depend(std::span<const ir::NodeId> nodes, ir::VariableId v
 }
 
 bool SparsityPattern::affords(ir::NodeId id, double times) {
-    const double cost = std::max(properties(id).cost, 1.0) * times;
-    if (cost > affordable_for_relation || cost > left_) return false;
-    left_ -= cost;
-    return true;
+    return budget_.pay(std::max(properties(id).cost, 1.0) * times);
 }
 
 std::vector<Axis> SparsityPattern::axes_of(ir::NodeId id) const {

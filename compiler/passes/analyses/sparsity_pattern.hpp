@@ -8,6 +8,7 @@
 #pragma once
 
 #include "ir/builder.hpp"
+#include "ir/evaluation_budget.hpp"
 #include "ir/evaluator.hpp"
 #include "ir/ir.hpp"
 #include "passes/analyses/relation.hpp"
@@ -69,7 +70,7 @@ class SparsityPattern {
 
     const ir::Builder& builder_;
     const ir::Evaluator& evaluator_;
-    double left_;  // in operations (Properties::cost), that may be spent on evaluating expressions
+    ir::EvaluationBudget budget_;
 };
 
 }  // namespace rddlc::passes

@@ -1,6 +1,7 @@
 #include "passes/arithmetic/find_ranges.hpp"
 
 #include "ir/analysis.hpp"
+#include "ir/evaluation_budget.hpp"
 #include "passes/analyses/constant_values.hpp"
 
 #include <array>
@@ -11,10 +12,6 @@
 
 namespace rddlc::passes {
 namespace {
-
-// In operations (Properties::cost), for all values of a divisor.
-constexpr double affordable_for_divisor = 4e6;
-constexpr double affordable_for_divisors = 1e8;
 
 double evaluations(const ir::Program& program, const ir::Properties& properties) {
     double count = 1;
@@ -85,9 +82,7 @@ class Ranges {
     std::optional<Range> range_by_values(ir::NodeId dividend, ir::NodeId divisor) {
         const ir::Properties& properties = properties_[divisor.index];
         const double cost = properties.cost * evaluations(program_, properties);
-        if (!properties.uniform || cost > affordable_for_divisor || cost > left_)
-            return std::nullopt;
-        left_ -= cost;
+        if (!properties.uniform || !budget_.pay(cost)) return std::nullopt;
         const auto values =
             constant_values(evaluator_, program_, divisor, properties.free_variables);
         if (!values || values->empty()) return std::nullopt;
@@ -108,7 +103,7 @@ class Ranges {
     std::vector<ir::Properties> properties_;  // by NodeId
     std::vector<bool> is_known_;              // by NodeId
     ir::TableProperties tables_;
-    double left_ = affordable_for_divisors;
+    ir::EvaluationBudget budget_;
     std::int64_t newly_finite_ = 0;
 };
 

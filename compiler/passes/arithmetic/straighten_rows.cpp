@@ -59,7 +59,7 @@ ir::Program straighten_rows(ir::Program program, Report& report) {
             program.real == RealType::Float ? straight<float> : straight<double>;
         auto lines =
             straight_in(buffer.values.dense(), static_cast<std::size_t>(buffer.shape.back()));
-        if (!lines) continue;
+        if (!lines || *lines == buffer.values.dense()) continue;
         buffer.values = std::move(*lines);
         ++report["tables of lines"];
     }

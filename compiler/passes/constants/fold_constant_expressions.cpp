@@ -1,5 +1,6 @@
 #include "passes/constants/fold_constant_expressions.hpp"
 
+#include "ir/evaluation_budget.hpp"
 #include "ir/rewrite.hpp"
 #include "passes/analyses/constant_values.hpp"
 
@@ -8,11 +9,8 @@
 namespace rddlc::passes {
 namespace {
 
-// More operations than this are left to the simulator.
-constexpr double affordable_to_fold = 1e7;
-
 bool is_known(const ir::Node& node, const ir::Properties& properties) {
-    return properties.cost <= affordable_to_fold && properties.uniform &&
+    return ir::EvaluationBudget::allows(properties.cost) && properties.uniform &&
            properties.free_variables.empty() && !std::holds_alternative<ir::Constant>(node.form);
 }
 

@@ -1,8 +1,10 @@
 #include "passes/constants/tabulate_constant_fluents.hpp"
 
+#include "ir/evaluation_budget.hpp"
 #include "ir/rewrite.hpp"
 #include "passes/analyses/constant_values.hpp"
 #include "passes/analyses/plain_definition.hpp"
+#include "passes/analyses/readers.hpp"
 
 #include <algorithm>
 #include <map>
@@ -13,15 +15,16 @@ namespace {
 
 // Larger tables are left to the simulator: they make the emitted text long.
 constexpr std::int64_t most_entries_of_fluent = 100'000;
-// In operations (Properties::cost).
-constexpr double affordable_for_fluent = 1e7;
-constexpr double affordable_for_fluents = 1e8;
 
 // One after the other: what reads a constant fluent may be constant, too.
 class FluentTabulation {
   public:
     FluentTabulation(ir::Program& program, Report& report)
-        : program_(program), report_(report), builder_(program), evaluator_(program) {}
+        : program_(program),
+          report_(report),
+          builder_(program),
+          evaluator_(program),
+          readers_(readers_of_step(program)) {}
 
     // The tables, by the interm-fluents that they replace.
     std::map<ir::BufferId, ir::BufferId> run() && {
@@ -38,14 +41,13 @@ class FluentTabulation {
         const ir::Buffer& buffer = program_[definition.target];
         if (buffer.storage != ir::Storage::Scratch || buffer.count() > most_entries_of_fluent)
             return std::nullopt;
+        if (readers_[definition.target.index].places == 0) return std::nullopt;
         const auto plain = plain_definition(program_, definition);
         if (!plain) return std::nullopt;
         const ir::NodeId value = with_tables(plain->value);
         const ir::Properties& properties = builder_.properties(value);
         const double cost = properties.cost * static_cast<double>(buffer.count());
-        if (!properties.uniform || cost > affordable_for_fluent || cost > left_)
-            return std::nullopt;
-        left_ -= cost;
+        if (!properties.uniform || !budget_.pay(cost)) return std::nullopt;
 
         std::vector<ir::VariableId> variables;
         for (const auto& variable : plain->variables) {
@@ -82,9 +84,10 @@ class FluentTabulation {
     Report& report_;
     ir::Builder builder_;
     ir::Evaluator evaluator_;
+    std::vector<Readers> readers_;
     std::map<ir::BufferId, ir::BufferId> tables_;
     std::map<ir::NodeId, ir::NodeId> known_;  // expressions with tables in place of fluents
-    double left_ = affordable_for_fluents;
+    ir::EvaluationBudget budget_;
 };
 
 }  // namespace

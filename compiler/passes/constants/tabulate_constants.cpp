@@ -1,5 +1,6 @@
 #include "passes/constants/tabulate_constants.hpp"
 
+#include "ir/evaluation_budget.hpp"
 #include "ir/new_tables.hpp"
 #include "ir/rewrite.hpp"
 #include "passes/analyses/constant_values.hpp"
@@ -14,8 +15,6 @@ namespace {
 
 // An entry of a larger table must save as many operations as it has fellows, divided by this.
 constexpr double entries_for_an_operation = 32;
-// In operations (Properties::cost), for the whole table.
-constexpr double affordable_for_table = 4e6;
 
 // Finds the outermost expressions that are worth a table.
 class ConstantTabulation {
@@ -65,7 +64,7 @@ class ConstantTabulation {
             return false;
         if (is_element(id)) return false;
         const double entries = entries_over(properties.free_variables);
-        if (entries * properties.cost > affordable_for_table) return false;
+        if (!ir::EvaluationBudget::allows(entries * properties.cost)) return false;
         const std::int64_t largest = largest_table_in(id);
         return largest > 0 && entries <= std::max(static_cast<double>(largest),
                                                   (properties.cost - 2) * entries_for_an_operation);

@@ -6,6 +6,7 @@
 #include "support/match.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace rddlc::passes {
 namespace {
@@ -24,8 +25,9 @@ class Marking {
         for (ir::Statement& statement : block) {
             auto* const loop = std::get_if<ir::Loop>(&statement.form);
             if (!loop) continue;
-            loop->several_at_once = is_worth_it(*loop) && is_possible(*loop);
-            marked += loop->several_at_once;
+            const bool was_marked =
+                std::exchange(loop->several_at_once, is_worth_it(*loop) && is_possible(*loop));
+            marked += loop->several_at_once && !was_marked;
         }
         return marked;
     }

@@ -2,6 +2,7 @@
 
 #include "texts.hpp"
 
+#include <cmath>
 #include <vector>
 
 namespace rddlc {
@@ -59,7 +60,10 @@ TEST(StraightenRows, MakesLinesOfWhatIsRoundedOtherwise) {
 
 TEST(StraightenRows, RepeatsTheLastElement) {
     const std::vector<double> rows{0.25, 0.5, 0.5, 0.5, 0.25, 0.5, 0.75, 0.75, 1, 1, 1, 1};
-    const auto [values, are_lines] = straightened(rows, 4);
+    EXPECT_FALSE(straightened(rows, 4).are_lines);  // they are lines already
+    std::vector<double> nearly = rows;
+    nearly[2] = std::nextafter(nearly[2], 1.0);
+    const auto [values, are_lines] = straightened(nearly, 4);
     EXPECT_TRUE(are_lines);
     EXPECT_EQ(values, reals(rows));
 }

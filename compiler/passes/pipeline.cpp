@@ -1,0 +1,244 @@
+#include "passes/pipeline.hpp"
+
+#include "passes/aggregations/compare_counts.hpp"
+#include "passes/aggregations/count_bits.hpp"
+#include "passes/aggregations/count_bools.hpp"
+#include "passes/aggregations/factor_aggregations.hpp"
+#include "passes/aggregations/fuse_interm_fluents.hpp"
+#include "passes/aggregations/hoist_aggregations.hpp"
+#include "passes/aggregations/index_directly.hpp"
+#include "passes/aggregations/make_aggregations_sparse.hpp"
+#include "passes/aggregations/merge_draws.hpp"
+#include "passes/aggregations/search_intervals.hpp"
+#include "passes/aggregations/skip_zero_terms.hpp"
+#include "passes/aggregations/tabulate_counts.hpp"
+#include "passes/arithmetic/compare_magnitudes.hpp"
+#include "passes/arithmetic/fast_math.hpp"
+#include "passes/arithmetic/find_ranges.hpp"
+#include "passes/arithmetic/prove_invariants.hpp"
+#include "passes/arithmetic/reduce_strength.hpp"
+#include "passes/arithmetic/straighten_rows.hpp"
+#include "passes/constants/fold_constant_expressions.hpp"
+#include "passes/constants/fold_uniform_tables.hpp"
+#include "passes/constants/tabulate_constant_fluents.hpp"
+#include "passes/constants/tabulate_constants.hpp"
+#include "passes/lanes/evaluate_together.hpp"
+#include "passes/lanes/separate_aggregations.hpp"
+#include "passes/lanes/unroll_rows.hpp"
+#include "passes/sharing/remove_unused_buffers.hpp"
+#include "passes/sharing/share_across_definitions.hpp"
+#include "passes/sharing/share_subexpressions.hpp"
+
+#include <algorithm>
+#include <span>
+#include <string_view>
+
+namespace rddlc::passes {
+namespace {
+
+constexpr std::string_view strength_summary =
+    "operators get cheaper equals: products replace divisions and powers";
+
+constexpr Pass in_order[] = {
+    {"tabulate_constant_fluents",
+     Phase::Constants,
+     tabulate_constant_fluents,
+     "interm-fluents that the instance fixes become tables",
+     {},
+     "all passes below know more about a table than about a fluent"},
+    {"fold_uniform_tables",
+     Phase::Constants,
+     fold_uniform_tables,
+     "a table of equal entries becomes a scalar",
+     {"tabulate_constant_fluents"},
+     "a fluent that has become a table may have equal entries"},
+    {"fold_constant_expressions",
+     Phase::Constants,
+     fold_constant_expressions,
+     "expressions that only tables decide are evaluated now",
+     {"fold_uniform_tables"},
+     "scalars in place of tables leave expressions of constants behind"},
+    {"find_ranges",
+     Phase::Arithmetic,
+     find_ranges,
+     "finds within which range a real lies",
+     {"fold_constant_expressions"},
+     "ranges come from the values of tables, and the passes below use them"},
+    {"fast_math",
+     Phase::Arithmetic,
+     fast_math,
+     "rewrites that are right for real numbers, if not for floating ones",
+     {"fold_constant_expressions"},
+     "divisors and exponents are literals now",
+     only_fast_math},
+    {"reduce_strength",
+     Phase::Arithmetic,
+     reduce_strength,
+     strength_summary,
+     {"fast_math"},
+     "fast_math takes more divisions and powers, where it runs"},
+    {"fuse_interm_fluents",
+     Phase::Aggregations,
+     fuse_interm_fluents,
+     "interm-fluents that are cheap or read once are computed where they are read",
+     {"tabulate_constant_fluents"},
+     "constant fluents are tables, and the passes below see whole expressions"},
+    {"prove_invariants",
+     Phase::Arithmetic,
+     prove_invariants,
+     "an invariant that every step keeps is not tested",
+     {"fuse_interm_fluents"},
+     "the min or max that keeps it stands in the CPF itself",
+     only_fast_math},
+    {"index_directly",
+     Phase::Aggregations,
+     index_directly,
+     "an aggregation to which one object contributes takes that object",
+     {"fuse_interm_fluents"},
+     "the condition may come from an interm-fluent; and one object is better than a sparse row",
+     leaves_out_zeros | may_find_more},
+    {"search_intervals",
+     Phase::Aggregations,
+     search_intervals,
+     "an expression of the interval in which a number lies becomes a binary search",
+     {"index_directly"},
+     "an equality is better than an interval",
+     leaves_out_zeros},
+    {"count_bools",
+     Phase::Aggregations,
+     count_bools,
+     "sums of reals that only count, in steps of constants, count in ints",
+     {"index_directly"},
+     "sums of one term are gone"},
+    {"compare_counts",
+     Phase::Aggregations,
+     compare_counts,
+     "an exists or forall of terms that are also counted compares the count",
+     {"count_bools"},
+     "it has made the counts"},
+    {"merge_draws",
+     Phase::Aggregations,
+     merge_draws,
+     "draws of two branches that have the same random numbers become one",
+     {"compare_counts"},
+     "a condition on a count may read the same as the probability"},
+    {"factor_aggregations",
+     Phase::Aggregations,
+     factor_aggregations,
+     "aggregations leave out factors that they do not change",
+     {"index_directly"},
+     "conditions on one object are no factors any more"},
+    {"hoist_aggregations",
+     Phase::Aggregations,
+     hoist_aggregations,
+     "an expression that depends on few of the loops around it becomes a table",
+     {"factor_aggregations"},
+     "without their factors aggregations depend on fewer loops"},
+    {"make_aggregations_sparse",
+     Phase::Aggregations,
+     make_aggregations_sparse,
+     "aggregations run over the entries of sparse tables",
+     {"index_directly", "hoist_aggregations"},
+     "the others need aggregations over all objects, and leave less to do",
+     leaves_out_zeros | may_find_more},
+    {"tabulate_counts",
+     Phase::Aggregations,
+     tabulate_counts,
+     "an expression of a count, or of another small int, becomes a table",
+     {"compare_counts", "make_aggregations_sparse"},
+     "a sparse row bounds its count, so that the table is small"},
+    {"straighten_rows",
+     Phase::Arithmetic,
+     straighten_rows,
+     "rows of tables that are nearly lines become lines",
+     {"tabulate_counts"},
+     "it has made the rows",
+     only_fast_math},
+    {"tabulate_constants",
+     Phase::Constants,
+     tabulate_constants,
+     "an expression of tables and loop variables becomes a table",
+     {"make_aggregations_sparse"},
+     "a table of entries is smaller than one of all pairs"},
+    {"skip_zero_terms",
+     Phase::Aggregations,
+     skip_zero_terms,
+     "sums compute only the expensive terms that a bool lets count",
+     {"make_aggregations_sparse", "tabulate_constants"},
+     "the terms that are still expensive are known",
+     leaves_out_zeros},
+    {"count_bits",
+     Phase::Aggregations,
+     count_bits,
+     "sums and tests over tables of bools work on the bits of ints",
+     {"count_bools", "make_aggregations_sparse"},
+     "the rows of a sparse table become masks"},
+    {"compare_magnitudes",
+     Phase::Arithmetic,
+     compare_magnitudes,
+     "two opposite bounds of a real become one of its absolute value",
+     {"search_intervals"},
+     "it looks for plain comparisons"},
+    {"share_across_definitions",
+     Phase::Sharing,
+     share_across_definitions,
+     "expressions that several CPFs compute are computed once",
+     {"fuse_interm_fluents", "count_bits"},
+     "expressions have their final form, so that equal ones are equal"},
+    {"separate_aggregations",
+     Phase::Lanes,
+     separate_aggregations,
+     "loops and sums leave aggregations and terms to tables, to run over several objects at once",
+     {"share_across_definitions"},
+     "an aggregation that is shared is a table already"},
+    {"unroll_rows",
+     Phase::Lanes,
+     unroll_rows,
+     "small tables of sums over rows are filled without loops",
+     {"separate_aggregations"},
+     "it has made such tables"},
+    {"remove_unused_buffers",
+     Phase::Sharing,
+     remove_unused_buffers,
+     "unread tables and interm-fluents are removed",
+     {"unroll_rows"},
+     "all passes above leave tables unread"},
+    {"share_subexpressions",
+     Phase::Sharing,
+     share_subexpressions,
+     "an expression that is used twice, or does not change in a loop, gets a name",
+     {"remove_unused_buffers"},
+     "all passes above look for whole expressions, without names",
+     may_find_more},
+    {"reduce_strength",
+     Phase::Arithmetic,
+     reduce_strength,
+     strength_summary,
+     {"share_subexpressions"},
+     "an expression that has a name is cheap enough for a product"},
+    {"evaluate_together",
+     Phase::Lanes,
+     evaluate_together,
+     "loops over several objects at once fill vector registers",
+     {"share_subexpressions"},
+     "the loops have their final bodies"},
+};
+
+// Whether each pass stands behind those that it names.
+consteval bool is_in_order(std::span<const Pass> passes) {
+    for (const Pass& pass : passes)
+        for (const char* const name : pass.after)
+            if (name && std::find_if(passes.data(), &pass,
+                                     [=](const Pass& each) { return each.name == name; }) == &pass)
+                return false;
+    return true;
+}
+static_assert(is_in_order(in_order));
+
+}  // namespace
+
+std::span<const Pass> pipeline() {
+    return in_order;
+}
+
+}  // namespace rddlc::passes
