@@ -17,6 +17,7 @@ import os
 import sys
 import tempfile
 import time
+from collections.abc import Callable
 
 import rddlc
 from start import Courses
@@ -25,12 +26,12 @@ FIRST_STEP, CHANGE = 0.3, 0.002  # seconds
 STEPS_BEFORE, STEPS_AFTER = 20, 60
 
 
-def first_step(name: str, instance: str, clock: object) -> tuple[rddlc.Problem, float]:
-    begin = clock()  # type: ignore[operator]
+def first_step(name: str, instance: str, clock: Callable[[], float]) -> tuple[rddlc.Problem, float]:
+    begin = clock()
     env = rddlc.make(name, instance)
     env.reset(seed=1)
     env.step({})
-    return env.problem, clock() - begin  # type: ignore[operator]
+    return env.problem, clock() - begin
 
 
 def main() -> int:
@@ -54,15 +55,15 @@ def main() -> int:
             if options.first_step_only:
                 problem.simulator.stop_building()
             else:
-                line += check_change(problem, complaints)
+                line += check_change(problem, complaints, clock)
             print(line, *complaints, flush=True)
             failed, passed = failed + bool(complaints), passed + (not complaints)
     print(f"{passed} passed, {failed} failed")
     return failed > 0
 
 
-def check_change(problem: rddlc.Problem, complaints: list[str]) -> str:
-    courses = Courses(problem, rddlc.make)
+def check_change(problem: rddlc.Problem, complaints: list[str], clock: Callable[[], float]) -> str:
+    courses = Courses(problem, rddlc.make, clock)
     try:
         courses.run(STEPS_BEFORE)
         courses.run_until_compiled()

@@ -14,8 +14,9 @@ import rddlc
 class Courses:
     """Steps both by the same actions, and compares all bits."""
 
-    def __init__(self, problem: rddlc.Problem, make: Callable[[rddlc.Problem], Any]) -> None:
-        self.problem = problem
+    def __init__(self, problem: rddlc.Problem, make: Callable[[rddlc.Problem], Any],
+                 clock: Callable[[], float] = time.perf_counter) -> None:
+        self.problem, self._clock = problem, clock
         self._envs = [make(problem), make(rddlc.Problem(*problem.files, engine="interpreter"))]
         for env in self._envs:
             env.reset(seed=5)
@@ -32,9 +33,9 @@ class Courses:
     def run(self, steps: int) -> None:
         for _ in range(steps):
             action = self._actions.sample()
-            begin = time.perf_counter()
+            begin = self._clock()
             found = self._envs[0].step(action)
-            self.seconds.append(time.perf_counter() - begin)
+            self.seconds.append(self._clock() - begin)
             expected = self._envs[1].step(action)
             if bits_of(found) != bits_of(expected):
                 raise AssertionError(f"step {self.steps}: {found} is not {expected}")

@@ -124,7 +124,7 @@ class Start(unittest.TestCase):
                 "env = rddlc.make(new_problem())\n"
                 "env.reset(seed=1); env.step({})\n"
                 "print(env.problem.is_compiled, time.monotonic() - begin < 5)",
-                CXX=script(folder, "sleep 1000"),
+                CXX=script(folder, "sleep 1013"),
                 XDG_CACHE_HOME=folder,
             )
             self.assertEqual((result.stdout, result.stderr), ("False True\n", ""))
@@ -132,7 +132,7 @@ class Start(unittest.TestCase):
             left = [each.name for each in Path(folder, "rddlc").iterdir()]
             self.assertEqual([each for each in left if not each.endswith(".lock")], [])
             self.assertNotIn(
-                "sleep 1000", subprocess.run(["ps", "ax"], capture_output=True, text=True).stdout
+                "sleep 1013", subprocess.run(["ps", "ax"], capture_output=True, text=True).stdout
             )
 
     def test_without_a_compiler_it_stays_interpreted_and_says_so_once(self) -> None:
@@ -181,7 +181,7 @@ class Start(unittest.TestCase):
 
     def test_close_and_deletion_end_the_build(self) -> None:
         with tempfile.TemporaryDirectory() as folder:
-            compiler = script(folder, f"echo $$ >> {folder}/started; exec sleep 1000")
+            compiler = script(folder, f"echo $$ >> {folder}/started; exec sleep 1013")
             result = run(
                 "env = rddlc.make(new_problem()); env.reset(seed=1)\n"
                 f"while not os.path.exists('{folder}/started'): time.sleep(0.01)\n"
@@ -196,7 +196,7 @@ class Start(unittest.TestCase):
 
     def test_a_killed_process_leaves_no_compiler_and_no_half_files(self) -> None:
         with tempfile.TemporaryDirectory() as folder:
-            compiler = script(folder, f"echo $$ >> {folder}/started; exec sleep 1000")
+            compiler = script(folder, f"echo $$ >> {folder}/started; exec sleep 1013")
             program = WORDS + "problem = new_problem(); time.sleep(1000)"
             with subprocess.Popen(
                 [sys.executable, "-c", program],
@@ -213,7 +213,7 @@ class Start(unittest.TestCase):
 
     def test_the_compiled_engine_says_what_it_waits_for(self) -> None:
         result = run("new_problem(engine='compiled')")
-        self.assertRegex(result.stderr, r"^rddlc: compiling counters\S*, once")
+        self.assertRegex(result.stderr, r"^rddlc: compiling .*counters.*, once")
 
     def test_a_name_that_is_no_engine_is_refused(self) -> None:
         with self.assertRaisesRegex(rddlc.ArgumentError, "auto.*compiled.*interpreter"):

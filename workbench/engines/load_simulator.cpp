@@ -1,6 +1,7 @@
 #include "engines/load_simulator.hpp"
 
 #include "cache/known_objects.hpp"
+#include "driver/cpp_compiler.hpp"
 #include "driver/extern_headers.hpp"
 #include "engines/compiled_simulator.hpp"
 #include "engines/external_library.hpp"
@@ -133,6 +134,14 @@ Simulator build_from(const Compilation& optimised, const ProblemFiles& files,
 
 LoadedProblem switching(Compilation compilation, const ProblemFiles& files,
                         const LoadOptions& options) {
+    if (!is_compiler_there()) {
+        if (!options.quiet)
+            tell(
+                "warning: there is no C++ compiler '{}': the problem is interpreted, which is "
+                "slower\n",
+                cpp_compiler().front());
+        return interpreted(std::move(compilation), files, options);
+    }
     const auto to_emit = std::make_shared<const Compilation>(copy_to_emit(compilation));
     LoadedProblem problem = interpreted(std::move(compilation), files, options);
     const auto build = [to_emit, files, options](const std::stop_token& stop) {
