@@ -64,7 +64,8 @@ struct CompileOptions {
     DiagnosticOptions diagnostics;
     Standard standard = Standard::PyRddlGym;
     PassOptions passes;
-    // Adds to what was written in the files before it is checked, such as the expressions of a scene.
+    // Adds to what was written in the files before it is checked, such as the expressions of a
+    // scene.
     std::function<void(ast::Program&, Sources&, Diagnostics&)> extend;
 };
 
@@ -93,6 +94,10 @@ struct Compilation {
 
 // Never throws for what users can do; std::logic_error is a mistake of the compiler itself.
 Compilation compile(const CompileOptions& options);
+
+// Goes on from one that stopped after the stage Optimise to the text, with the same options. Only
+// its sources, program and details are used.
+Compilation emit_compilation(Compilation optimised, const CompileOptions& options);
 
 // The names of all optimisations, in their order.
 std::vector<std::string> pass_names();
