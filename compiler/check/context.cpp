@@ -17,9 +17,9 @@ std::optional<std::string> name_meant(const Context& context, std::string_view n
     return did_you_mean(name, names);
 }
 
-std::string suggestion(const Context& context, std::string_view name,
-                       const Candidates& candidates) {
-    return hint_of_name(name_meant(context, name, candidates));
+Hint suggestion(const Context& context, std::string_view name, Span place,
+                const Candidates& candidates) {
+    return hint_of_name(name_meant(context, name, candidates), place);
 }
 
 std::string counted(std::size_t count, std::string_view noun) {

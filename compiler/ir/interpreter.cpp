@@ -71,12 +71,16 @@ Interpreter::Interpreter(Program program, ExternalFunctions functions)
       reset_fills_tables_(does_reset_fill_tables(*program_)) {}
 
 void Interpreter::reset(std::byte* state, Context& context) const {
+    reset(state, context, nullptr);
+}
+
+void Interpreter::reset(std::byte* state, Context& context, Outcomes* outcomes) const {
     initial_state(state);
     if (program_->reset.empty()) return;
     std::vector<std::byte> scratch(reset_fills_tables_ ? scratch_size_ : 0);
     const Records records =
         Records().set(Storage::State, state).set(Storage::Scratch, scratch.data());
-    Evaluator::Frame frame(evaluator_, records, context);
+    Evaluator::Frame frame(evaluator_, records, context, outcomes);
     for (const Definition& definition : program_->reset) evaluator_.run(definition.body, frame);
 }
 

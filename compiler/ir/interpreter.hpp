@@ -32,6 +32,8 @@ class Interpreter {
 
     // Writes the initial state, also as it is before the draws, and the default action.
     void reset(std::byte* state, Context& context) const;
+    // The same with draws that are chosen.
+    void reset(std::byte* state, Context& context, Outcomes* outcomes) const;
     void initial_state(std::byte* state) const;
     void default_action(std::byte* action) const;
 

@@ -13,7 +13,7 @@ namespace rddlc::planners {
 
 namespace {
 
-// Of plans, until something is better than doing nothing, where the user gives no other.
+// Steps of a plan, until something is better than doing nothing, if the user gives no horizon.
 constexpr std::int64_t first_horizon = 40;
 // Correlations of noise, of one sample after the other.
 constexpr std::array<double, 4> mixture{0, 0.5, 0.8, 0.95};
@@ -69,7 +69,8 @@ Cem::Cem(const PlannerContext& context, const CemOptions& options)
     }
     default_numbers_.resize(static_cast<std::size_t>(space_.real_count()));
     default_indices_.resize(static_cast<std::size_t>(space_.index_count()));
-    read_action(space_, space_.defaults.data(), default_numbers_.data(), default_indices_.data());
+    solvers::read_action(space_, space_.defaults.data(), default_numbers_.data(),
+                         default_indices_.data());
 
     plans_.resize(population_);
     origins_.resize(population_);
@@ -163,8 +164,9 @@ void Cem::record_policy(const DecisionPoint& point, Plan& plan, BudgetMeter& met
     for (std::size_t t = 0; t < rows && recording_->any_running(); ++t) {
         recorder_->act(*recording_, wanted, actions_.data(), point.stops);
         records_.read(actions_.data(), rows_.data());
-        read_action(space_, rows_.data(), plan.numbers.data() + t * default_numbers_.size(),
-                    plan.indices.data() + t * default_indices_.size());
+        solvers::read_action(space_, rows_.data(),
+                             plan.numbers.data() + t * default_numbers_.size(),
+                             plan.indices.data() + t * default_indices_.size());
         recording_->step(actions_.data());
         meter.add_steps(1);
     }
@@ -279,7 +281,7 @@ void Cem::keep_best(Memory& memory) {
     }
 }
 
-// Of a population that was not played to its end only those plans count that were kept before.
+// A population that was not played to its end counts only with the plans that were kept before.
 void Cem::rank_kept(const Memory& memory) {
     std::iota(order_.begin(), order_.end(), std::size_t{0});
     for (std::size_t c = 0; c < population_; ++c) {

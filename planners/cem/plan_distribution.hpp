@@ -16,10 +16,6 @@ struct Plan {
     std::vector<std::int32_t> indices;  // rows of index_count
 };
 
-// Into the learner's numbers: the inverse of solvers::write_action, as far as there is one.
-void read_action(const solvers::ActionSpace& space, const float* values, float* numbers,
-                 std::int32_t* indices);
-
 struct Spread {
     double first = 1;      // deviation of reals in the first distribution
     double least = 0.05;   // to which a fit goes down
@@ -30,7 +26,7 @@ class Distribution {
   public:
     Distribution(const solvers::ActionSpace& space, Spread spread);
 
-    // That of a new episode.
+    // Begins a new episode.
     void restart(std::int64_t steps);
     // More steps; those that are added are as in a new episode.
     void extend(std::int64_t steps);
@@ -43,7 +39,8 @@ class Distribution {
     // Noise of two steps has this correlation.
     void draw(RandomStream& stream, double correlation, Plan& plan) const;
     void middle(Plan& plan) const;
-    // By `memory` it stays what it is; the rest is a fit to the plans, by weights whose sum is 1.
+    // Fits the distribution to the plans, by weights whose sum is 1. It keeps the share `memory` of
+    // its old parameters.
     void fit(std::span<const Plan* const> plans, std::span<const double> weights, double memory,
              bool keeps_deviations);
 

@@ -2,6 +2,7 @@
 
 #include "engines/external_library.hpp"
 #include "engines/load_simulator.hpp"
+#include "exact/step_outcomes.hpp"
 #include "ir/interpreter.hpp"
 #include "native/paths.hpp"
 #include "native/problem.hpp"
@@ -13,6 +14,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -34,59 +36,46 @@ class Enumeration {
   public:
     Enumeration(ir::Program program, workbench::ExternalLibrary library)
         : library_(std::move(library)),
-          interpreter_(std::move(program), library_.functions),
-          scratch_(interpreter_.scratch_size()),
-          observation_(interpreter_.observation_size()) {}
+          interpreter_(std::make_unique<ir::Interpreter>(std::move(program), library_.functions)),
+          outcomes_(*interpreter_) {}
 
     // horizon: 0: no horizon. Refuses more than `most` combinations, and those that fault.
     Distribution next_states(const std::string& state, std::int64_t steps,
                              const std::string& action, std::int64_t horizon, std::int64_t most) {
-        if (state.size() != interpreter_.state_size() ||
-            action.size() != interpreter_.action_size())
+        if (state.size() != interpreter_->state_size() ||
+            action.size() != interpreter_->action_size())
             throw Refused("a record of another problem");
         Distribution found;
-        ir::Outcomes outcomes;
         std::int64_t combinations = 0;
-        do {
-            if (combinations % 256 == 0 && PyErr_CheckSignals() != 0) throw nb::python_error();
-            if (++combinations > most)
-                throw Failure(fmt::format(
-                    "a step has more than {} combinations of what it draws: allow more by "
-                    "most_outcomes, or say samples=1000 for an estimate",
-                    most));
-            add(found, outcomes, state, steps, action, horizon);
-        } while (outcomes.next());
+        const int end = horizon > 0 && steps + 1 >= horizon ? RDDL_TRUNCATED_HORIZON : 0;
+        outcomes_.visit(
+            bytes(state), bytes(action), steps, [&](const workbench::ListedOutcome& outcome) {
+                if (combinations % 256 == 0 && PyErr_CheckSignals() != 0) throw nb::python_error();
+                if (++combinations > most)
+                    throw Failure(fmt::format(
+                        "a step has more than {} combinations of what it draws: allow more by "
+                        "most_outcomes, or say samples=1000 for an estimate",
+                        most));
+                if (outcome.causes & RDDL_FAULTED)
+                    throw Failure("one of the outcomes has no result: sample() reports the fault");
+                const std::string record(reinterpret_cast<const char*>(outcome.next),
+                                         interpreter_->state_size());
+                Mass& mass = found[{record, static_cast<std::uint8_t>(outcome.causes | end)}];
+                mass.probability += outcome.probability;
+                mass.reward += outcome.probability * outcome.reward;
+                return true;
+            });
         return found;
     }
 
   private:
-    void add(Distribution& found, ir::Outcomes& outcomes, const std::string& state,
-             std::int64_t steps, const std::string& action, std::int64_t horizon) {
-        auto context =
-            rddl::Context<rddl::Scalar>::of(0, 0, static_cast<std::uint64_t>(steps) + 1, true);
-        std::vector<std::byte> next(interpreter_.state_size());
-        const double reward =
-            interpreter_.step(bytes(state), bytes(action), scratch_.data(), next.data(),
-                              observation_.data(), context, &outcomes);
-        int causes = interpreter_.terminal(next.data(), context) ? RDDL_TERMINATED : 0;
-        if (interpreter_.violates_invariant(next.data(), context))
-            causes |= RDDL_TRUNCATED_INVARIANT;
-        if (horizon > 0 && steps + 1 >= horizon) causes |= RDDL_TRUNCATED_HORIZON;
-        if (context.fault)
-            throw Failure("one of the outcomes has no result: sample() reports the fault");
-        const std::string record(reinterpret_cast<const char*>(next.data()), next.size());
-        Mass& mass = found[{record, static_cast<std::uint8_t>(causes)}];
-        mass.probability += outcomes.probability();
-        mass.reward += outcomes.probability() * reward;
-    }
-
     static const std::byte* bytes(const std::string& record) {
         return reinterpret_cast<const std::byte*>(record.data());
     }
 
     workbench::ExternalLibrary library_;
-    ir::Interpreter interpreter_;
-    std::vector<std::byte> scratch_, observation_;
+    std::unique_ptr<const ir::Interpreter> interpreter_;  // stays where it is
+    workbench::StepOutcomes outcomes_;
 };
 
 Enumeration enumeration_of(const workbench::LoadedProblem& problem, const nb::object& headers) {

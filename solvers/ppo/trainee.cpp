@@ -52,8 +52,8 @@ std::string ppo_status(const PpoProgress& progress, const Work& work) {
 
 }  // namespace
 
-Trainee ppo_trainee(const rddl_simulator& simulator, const PpoOptions& options,
-                    const Ranks& ranks) {
+Trainee ppo_trainee(const rddl_simulator& simulator, const PpoOptions& options, const Ranks& ranks,
+                    const Demonstrate& demonstrate) {
     require_ranges(ppo_option_table(), options);
     const auto trainer = std::make_shared<PpoTrainer>(simulator, options, ranks);
     const auto work = std::make_shared<Work>();
@@ -65,6 +65,13 @@ Trainee ppo_trainee(const rddl_simulator& simulator, const PpoOptions& options,
         trainee.note = fmt::format("--rollout is {} in place of {}, since this problem is large",
                                    rollout, options.rollout);
     trainee.ends_early = static_cast<bool>(options.stops);
+    if (demonstrate)
+        trainee.prepare = [=] {
+            const Demonstrations shown = demonstrate(trainer->model());
+            trainer->imitate(shown);
+            return fmt::format("{} steps are imitated, whose episodes return {:.6g}", shown.count(),
+                               shown.returns.mean);
+        };
     trainee.update = [=] {
         trainer->update();
         work->seconds += trainer->progress().collect_seconds + trainer->progress().learn_seconds;

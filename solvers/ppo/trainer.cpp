@@ -23,7 +23,7 @@ namespace rddlc::solvers {
 
 namespace {
 
-const CheckpointKind checkpoint{"PPO", "rddl ppo checkpoint", 6};
+const CheckpointKind checkpoint{"PPO", "rddl ppo checkpoint", 7};
 constexpr std::size_t remembered_episodes = 100;
 
 using Clock = std::chrono::steady_clock;
@@ -341,8 +341,89 @@ struct PpoTrainer::State {
         learn_scales();
     }
 
+    // The scales of what was shown are those that the policy begins with.
+    void learn_scales_of(const Demonstrations& shown) {
+        const std::size_t features = feature_statistics.size();
+        std::vector<Moments> all(features + 1);
+        double running = 0;
+        for (std::size_t s = 0; s < shown.count(); ++s) {
+            for (std::size_t f = 0; f < features; ++f)
+                all[f].add(static_cast<double>(shown.features[s * features + f]));
+            running = running * gamma + shown.rewards[s];
+            all[features].add(running);
+            if (shown.is_last[s]) running = 0;
+        }
+        for (std::size_t f = 0; f < features && options.normalises_observations; ++f) {
+            feature_statistics[f] = {};
+            feature_statistics[f].add(all[f]);
+            model.normaliser.means[f] = static_cast<float>(feature_statistics[f].mean);
+            model.normaliser.factors[f] = static_cast<float>(1 / feature_statistics[f].deviation());
+        }
+        return_statistics.add(all[features]);
+    }
+
+    // Samples of which one is as good as the other.
+    Experience experience_of(const Demonstrations& shown) const {
+        Experience made(model, static_cast<int>(shown.count()), 1, 1);
+        const ActionSpace& actions = model.actions;
+        const auto at = [](auto& values, std::size_t s, int size) {
+            return values.data() + s * static_cast<std::size_t>(size);
+        };
+        std::fill(made.masks.begin(), made.masks.end(), std::uint8_t{1});
+        // So that no ratio of probabilities, of which nothing depends here, overflows.
+        std::fill(made.log_probabilities.begin(), made.log_probabilities.end(), 1e4f);
+        const double factor = options.normalises_rewards ? 1 / return_statistics.deviation() : 1.0;
+        double future = 0;
+        for (std::size_t s = shown.count(); s-- > 0;) {
+            model.normaliser.write(at(shown.features, s, model.features()),
+                                   at(made.inputs, s, model.input_row()));
+            std::int32_t* const indices = at(made.indices, s, actions.index_count());
+            read_action(actions, at(shown.actions, s, actions.column_count),
+                        at(made.numbers, s, actions.real_count()), indices);
+            // After the pick that stops there are none.
+            for (int p = 1; p < actions.picks; ++p)
+                if (indices[p - 1] <= 0) indices[p] = -1;
+            if (shown.is_last[s]) future = 0;
+            future = factor * shown.rewards[s] + gamma * future;
+            made.returns[s] = static_cast<float>(future);
+        }
+        return made;
+    }
+
+    // Raises the likelihood of what was shown. It is the gradient of the penalty on the divergence
+    // from the policy that acted, without any advantages.
+    void imitate(const Demonstrations& shown) {
+        require(ranks.count == 1, "a run on several ranks cannot imitate");
+        require(options.recurrent == 0, "a policy with a memory cannot imitate");
+        constexpr std::size_t gradient_steps = 3000, samples = 256;
+        constexpr double rate = 1e-3;
+        constexpr float least_log_deviation = -1.5f;  // so that PPO still explores
+        learn_scales_of(shown);
+        const Experience made = experience_of(shown);
+        std::vector<std::uint32_t> places(made.count());
+        const std::size_t size =
+            std::min({samples, made.count(), static_cast<std::size_t>(options.minibatch)});
+        for (std::size_t step = 0, epoch = 0; step < gradient_steps && !is_stopped(); ++epoch) {
+            shuffle(places, options.seed, 0x696D6974, epoch, 0);
+            for (std::size_t s = 0; s + size <= places.size() && step < gradient_steps;
+                 s += size, ++step) {
+                const double left =
+                    1 - static_cast<double>(step) / static_cast<double>(gradient_steps);
+                learner.learn(made, {places.data() + s, size}, {static_cast<double>(size), 0, 0},
+                              {rate * left, 0, 1});
+            }
+        }
+        float* const deviations = model.parameters.data() + model.deviations_begin();
+        for (int d = 0; d < model.deviation_count(); ++d)
+            deviations[d] = std::max(deviations[d], least_log_deviation);
+        std::fill(learner.first_moments.begin(), learner.first_moments.end(), 0.0f);
+        std::fill(learner.second_moments.begin(), learner.second_moments.end(), 0.0f);
+        learner.adam_steps = 0;
+        has_imitated = true;
+    }
+
     void update() {
-        if (progress.updates == 0) warm_up();
+        if (progress.updates == 0 && !has_imitated) warm_up();
         auto begin = Clock::now();
         const double rate = scheduled_rate();
         collect(progress.updates);
@@ -383,6 +464,7 @@ struct PpoTrainer::State {
         archive(return_statistics);
         archive(learning_rate);
         archive(kl_penalty);
+        archive(has_imitated);
         archive(episodes);
         archive_environments(archive);
     }
@@ -423,6 +505,7 @@ struct PpoTrainer::State {
     std::vector<Moments> moments;           // room for what is summed up
     double gamma, learning_rate, kl_penalty, entropy_weight = 0;
     std::int64_t repaired = 0;
+    bool has_imitated = false;
     PpoProgress progress;
 };
 
@@ -433,6 +516,9 @@ PpoTrainer::PpoTrainer(const rddl_simulator& simulator, const PpoOptions& option
 }
 PpoTrainer::~PpoTrainer() = default;
 
+void PpoTrainer::imitate(const Demonstrations& shown) {
+    state_->imitate(shown);
+}
 void PpoTrainer::update() {
     state_->update();
 }

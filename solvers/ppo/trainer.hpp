@@ -5,6 +5,7 @@
 // threads: random numbers are functions of what they are for, and sums are made in a fixed order.
 #pragma once
 
+#include "solvers/ppo/demonstrations.hpp"
 #include "solvers/ppo/model.hpp"
 #include "solvers/ppo/options.hpp"
 #include "solvers/ranks/ranks.hpp"
@@ -39,6 +40,9 @@ class PpoTrainer {
     PpoTrainer(const rddl_simulator& simulator, const PpoOptions& options, const Ranks& ranks = {});
     ~PpoTrainer();
 
+    // Learns to act as was shown, and what that earns; before the first update. Throws a Failure
+    // where there are several ranks, or the policy has a memory.
+    void imitate(const Demonstrations& shown);
     // Throws a Failure, with the step and the cause, where a loss or a gradient is not finite.
     void update();
     bool done() const;  // the options' steps are made

@@ -130,6 +130,8 @@ ExitStatus train_by_words(const rddl_simulator& simulator, const SolverProgram& 
         if (ranks.is_first())
             print("best return {:.6g} in {:.6g} steps: {}\n", result.best_return,
                   result.best_length, training.folder.string());
+        if (ranks.is_first() && !result.no_better.empty())
+            tell("{}: warning: {}\n", argv[0], result.no_better);
         return result.interrupted ? static_cast<ExitStatus>(128 + signalled) : success;
     });
 }

@@ -76,6 +76,69 @@ void write_action(const ActionSpace& space, const float* numbers, const std::int
     }
 }
 
+namespace {
+
+double number_of_real(const RealHead& head, double value) {
+    const auto inverse_softplus = [](double x) {
+        return x > 30 ? x : std::log(std::expm1(std::max(x, 1e-12)));
+    };
+    switch (head.range) {
+        case RealHead::Range::Squashed:
+        case RealHead::Range::Bounded: {
+            const double width = head.upper - head.lower;
+            const double middle = width > 0 ? 2 * (value - head.lower) / width - 1 : 0;
+            return head.range == RealHead::Range::Bounded
+                       ? middle
+                       : std::atanh(std::clamp(middle, -0.999, 0.999));
+        }
+        case RealHead::Range::AboveLower:
+            return inverse_softplus((value - head.lower) / head.scale);
+        case RealHead::Range::BelowUpper:
+            return inverse_softplus((head.upper - value) / head.scale);
+        case RealHead::Range::Free:
+            break;
+    }
+    return (value - head.centre) / head.scale;
+}
+
+std::int32_t index_of_category(const ActionSpace& space, const CategoryHead& head,
+                               const float* values) {
+    std::int64_t value = 0;
+    if (head.group.empty()) {
+        value = std::llround(values[head.column]);
+    } else {
+        for (std::size_t g = 0; g < head.group.size(); ++g) {
+            const auto column = static_cast<std::size_t>(head.group[g]);
+            if (values[column] != space.defaults[column]) value = static_cast<std::int64_t>(g) + 1;
+        }
+    }
+    return static_cast<std::int32_t>(
+        std::clamp<std::int64_t>(value - head.first_value, 0, head.count - 1));
+}
+
+}  // namespace
+
+void read_action(const ActionSpace& space, const float* values, float* numbers,
+                 std::int32_t* indices) {
+    for (std::size_t r = 0; r < space.reals.size(); ++r)
+        numbers[r] = static_cast<float>(
+            number_of_real(space.reals[r], static_cast<double>(values[space.reals[r].column])));
+    if (space.picks == 0) {
+        for (std::size_t h = 0; h < space.categories.size(); ++h)
+            indices[h] = index_of_category(space, space.categories[h], values);
+        return;
+    }
+    int picked = 0;
+    for (std::size_t c = 1; c < space.choices.size() && picked < space.picks; ++c) {
+        const Choice& choice = space.choices[c];
+        const float value = values[choice.column];
+        if (value == space.defaults[static_cast<std::size_t>(choice.column)]) continue;
+        if (choice.real < 0 && std::llround(value) != choice.value) continue;
+        indices[picked++] = static_cast<std::int32_t>(c);
+    }
+    std::fill(indices + picked, indices + space.picks, 0);
+}
+
 ActionRecords::ActionRecords(const rddl_simulator& simulator)
     : record_size_(static_cast<std::size_t>(simulator.problem->action_size)) {
     const auto* const action = static_cast<const std::byte*>(simulator.problem->default_action);

@@ -101,6 +101,9 @@ double real_value(const RealHead& head, double number);
 // Writes the row of column_count action values.
 void write_action(const ActionSpace& space, const float* numbers, const std::int32_t* indices,
                   float* values);
+// The inverse, as far as there is one: picks come in the order of choices, and 0 stops them.
+void read_action(const ActionSpace& space, const float* values, float* numbers,
+                 std::int32_t* indices);
 
 // Action rows as records and back. Constant for a problem.
 class ActionRecords {

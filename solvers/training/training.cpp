@@ -1,8 +1,10 @@
+// Over 400 lines: one class, the course of a training from its folder to its last file.
 #include "solvers/training/training.hpp"
 
 #include "solvers/evaluation/summary.hpp"
 #include "solvers/files/archive.hpp"
 #include "solvers/files/fingerprint.hpp"
+#include "solvers/training/baselines.hpp"
 #include "solvers/training/checkpoint_file.hpp"
 #include "solvers/training/run_folder.hpp"
 #include "solvers/training/run_log.hpp"
@@ -46,6 +48,9 @@ class Training {
     TrainingResult run() {
         open_folder();
         begin_ = last_shown_ = last_saved_ = Clock::now();
+        if (options_.ranks.is_first())
+            baselines_ = baselines(simulator_, evaluation_options(), options_.stops);
+        if (!options_.resumes && trainee_.prepare) prepare();
         if (owes_evaluation_) finish_update();
         bool stops = result_.reached;
         while (!stops && !trainee_.done() && update()) {
@@ -65,6 +70,10 @@ class Training {
         result_.best_return = best_return_;
         result_.best_length = best_length_;
         result_.best_policy = best_policy_;
+        if (has_best_ && !result_.interrupted)
+            result_.no_better =
+                complaint_about({.mean = best_return_, .half_width = best_half_width_}, baselines_,
+                                trainee_.solver);
         if (!has_best_ && !result_.interrupted && !result_.not_finite.empty())
             throw Failure(fmt::format("no evaluation has a finite return: {}", result_.not_finite),
                           "'rddl run --trace' shows what leads there");
@@ -72,6 +81,16 @@ class Training {
     }
 
   private:
+    // What it has learned before the first update counts as its first policy.
+    void prepare() {
+        const std::string said = trainee_.prepare();
+        if (options_.stops && options_.stops())
+            throw Failure("interrupted before the first update");
+        evaluate();
+        if (!options_.quiet && options_.ranks.is_first())
+            tell("{}; the policy that imitates it {:.6g}\n", said, last_return_);
+    }
+
     std::filesystem::path file(const char* name) const { return options_.folder / name; }
 
     // Each rank reads the files of the problem by itself.
@@ -144,13 +163,19 @@ class Training {
         if (!owes_evaluation_) log();
     }
 
-    // The likeliest actions, on seeds that are the same for all evaluations. False, and nothing is
-    // known of them, where an interrupt came and they take long.
-    bool evaluate() {
+    // On seeds that are the same for all evaluations.
+    EpisodeOptions evaluation_options() const {
         EpisodeOptions episodes;
         episodes.episodes = simulator_.problem->stochastic ? options_.evaluation_episodes : 1;
         episodes.seed = options_.seed + 0x65766131;
         if (simulator_.problem->horizon == 0) episodes.horizon = 1000;
+        return episodes;
+    }
+
+    // The likeliest actions. False, and nothing is known of them, where an interrupt came and they
+    // take long.
+    bool evaluate() {
+        const EpisodeOptions episodes = evaluation_options();
         const Clock::time_point begin = Clock::now();
         Watch watch;
         watch.stops = [&] {
@@ -180,6 +205,7 @@ class Training {
         if (is_finite && better) {
             has_best_ = true;
             best_return_ = last_return_;
+            best_half_width_ = summary.undiscounted_return.half_width;
             best_length_ = last_length_;
             best_policy_ = trainee_.policy_text();
         }
@@ -209,6 +235,7 @@ class Training {
         const std::string begin = fmt::format("{} {} {:3.0f} %  ", trainee_.solver,
                                               simulator_.problem->instance, 100 * part);
         std::string end;
+        if (const std::string text = baselines_.text(); !text.empty()) end += "  " + text;
         if (has_best_) end += fmt::format("  best {:.6g}", best_return_);
         if (last)
             end += fmt::format("  in {}", time_text(seconds));
@@ -347,6 +374,7 @@ class Training {
         archive(last_length_);
         archive(has_best_);
         archive(best_return_);
+        archive(best_half_width_);
         archive(best_length_);
         archive(best_policy_);
         archive(owes_evaluation_);
@@ -365,6 +393,8 @@ class Training {
     bool evaluated_ = false, has_best_ = false, owes_evaluation_ = false;
     std::int64_t evaluated_at_ = 0, evaluations_ = 0;
     double last_return_ = 0, last_length_ = 0, best_return_ = 0, best_length_ = 0;
+    double best_half_width_ = 0;
+    Baselines baselines_;
     std::string best_policy_;
 };
 

@@ -26,10 +26,12 @@ using Settings = std::vector<std::pair<std::string, std::string>>;
 
 // A solver at work, as the training sees it.
 struct Trainee {
-    std::string solver;                   // "ppo"
-    Settings settings;                    // a resumed run has the same
-    std::string note;                     // what it has chosen that users may not expect, or ""
-    bool ends_early = false;              // update() does where TrainingOptions::stops says so
+    std::string solver;       // "ppo"
+    Settings settings;        // a resumed run has the same
+    std::string note;         // what it has chosen that users may not expect, or ""
+    bool ends_early = false;  // update() does where TrainingOptions::stops says so
+    // What a new run does first, and says about it; may be empty.
+    std::function<std::string()> prepare = {};
     std::function<void()> update;         // a little more work
     std::function<bool()> done;           // all that was asked for
     std::function<std::int64_t()> steps;  // made, or whatever progress is measured in
@@ -67,8 +69,10 @@ struct TrainingResult {
     bool has_best = false;  // false where an interrupt came before the first evaluation
     double best_return = 0, best_length = 0;  // mean of the best evaluation
     std::string best_policy;                  // of that evaluation, as its file holds it
-    std::int64_t episodes = 0, faulted = 0;   // of the last evaluation
-    std::string first_fault;                  // of all of them; its message
+    // A sentence where that policy is no better than no-op or random actions, else "".
+    std::string no_better;
+    std::int64_t episodes = 0, faulted = 0;  // of the last evaluation
+    std::string first_fault;                 // of all of them; its message
     std::string not_finite;  // where the last evaluation's return is not: what has made it so
 };
 

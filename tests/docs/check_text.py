@@ -19,7 +19,7 @@ from pathlib import Path
 from pages import COMMAND, PRINTED, ROOT, RUN, blocks, pages, pages_of_diagnostics
 
 COMMANDS = "sh"
-LANGUAGES = {RUN, PRINTED, COMMANDS, "rddl", "c++", "c", "cmake", "python", "ebnf", "json", "mermaid"}
+LANGUAGES = {RUN, PRINTED, COMMANDS, "rddl", "c++", "c", "cmake", "python", "ebnf", "json", "lua", "elisp", "toml", "mermaid"}
 
 CODE = re.compile(r"`([^`\n]+)`")
 LINK = re.compile(r"\]\(([^)\s]+)\)")

@@ -1,5 +1,6 @@
 #include "learning/learned_policy.hpp"
 
+#include "exact/solution.hpp"
 #include "formats/line_stream.hpp"
 #include "formats/trace.hpp"
 #include "formats/trace_steps.hpp"
@@ -59,7 +60,8 @@ std::filesystem::path policy_file(const std::filesystem::path& path) {
 bool is_learned_policy(const std::filesystem::path& path) {
     const std::filesystem::path file = policy_file(path);
     const std::string ending = file.extension();
-    return (ending == ".json" || ending == ".cgp" || ending == ".jsonl" || ending == ".txt") &&
+    return (ending == ".json" || ending == ".cgp" || ending == ".jsonl" || ending == ".txt" ||
+            ending == solution_ending) &&
            is_there(file);
 }
 
@@ -153,6 +155,8 @@ solvers::Policy learned_policy(const rddl_simulator& simulator, const std::files
     if (file.extension() == ".jsonl") return recorded_plans(simulator, file);
     const std::string text = policy_text(path);
     try {
+        if (file.extension() == solution_ending)
+            return solution_policy(simulator, read_solution(simulator, text), path.string());
         return policy_of_text(simulator, text, random, seed, path.string(), memory_limit);
     } catch (const Failure& failure) {
         throw Failure(fmt::format("cannot act by '{}': {}", file.string(), failure.what()),

@@ -2,9 +2,11 @@
 // seeds.
 #include "commands/commands.hpp"
 #include "commands/options.hpp"
+#include "exact/solution.hpp"
 #include "formats/number_text.hpp"
 #include "formats/records_json.hpp"
 #include "formats/table.hpp"
+#include "learning/learned_policy.hpp"
 #include "pictures/charts.hpp"
 #include "rollouts/evaluation.hpp"
 #include "support/json_text.hpp"
@@ -32,6 +34,13 @@ struct EvaluationOptions {
     bool json = false;
     PlannerSettings planning;
     ChartFiles chart;
+    std::string optimum;  // a solution's file, or "now"; "": the optimum is not asked for
+};
+
+// The greatest discounted return that a policy can have on average.
+struct KnownOptimum {
+    double value = 0;
+    double below(const Evaluation& one) const { return value - one.summary.discounted_return.mean; }
 };
 
 std::string interval_text(const solvers::Estimate& estimate) {
@@ -46,20 +55,22 @@ std::string share_text(std::int64_t part, std::int64_t all) {
 }
 
 void print_table(const rddl_problem& problem, const std::vector<Evaluation>& all,
-                 const EvaluationOptions& options) {
+                 const std::optional<KnownOptimum>& optimum, const EvaluationOptions& options) {
     print("{} ({}): {} episodes, seed {}\n\n", problem.instance, problem.domain,
           options.episodes.episodes, options.episodes.seed);
-    TextTable table({{"policy"},
-                     {"return", Align::Right},
-                     {"discounted", Align::Right},
-                     {"std", Align::Right},
-                     {"min", Align::Right},
-                     {"max", Align::Right},
-                     {"length", Align::Right},
-                     {"ended", Align::Right},
-                     {"illegal", Align::Right},
-                     {"faults", Align::Right},
-                     {"steps/s", Align::Right}});
+    std::vector<Column> columns{{"policy"},
+                                {"return", Align::Right},
+                                {"discounted", Align::Right},
+                                {"std", Align::Right},
+                                {"min", Align::Right},
+                                {"max", Align::Right},
+                                {"length", Align::Right},
+                                {"ended", Align::Right},
+                                {"illegal", Align::Right},
+                                {"faults", Align::Right},
+                                {"steps/s", Align::Right}};
+    if (optimum) columns.push_back({"below optimum", Align::Right});
+    TextTable table(columns);
     for (const Evaluation& one : all) {
         const solvers::Summary& s = one.summary;
         table.add_row(
@@ -68,8 +79,12 @@ void print_table(const rddl_problem& problem, const std::vector<Evaluation>& all
              number_text(s.undiscounted_return.minimum), number_text(s.undiscounted_return.maximum),
              number_text(s.length.mean), share_text(s.terminated, s.episodes),
              grouped(s.illegal_actions), grouped(s.faulted),
-             rate_text(one.seconds > 0 ? static_cast<double>(one.steps) / one.seconds : 0)});
+             rate_text(one.seconds > 0 ? static_cast<double>(one.steps) / one.seconds : 0),
+             optimum ? number_text(optimum->below(one)) : ""});
     }
+    if (optimum)
+        table.add_row(
+            {"optimum", "", number_text(optimum->value), "", "", "", "", "", "", "", "", "0"});
     print(
         "{}\n± is the half of a 95 % confidence interval; 'ended' are episodes that a "
         "termination ended\n",
@@ -85,7 +100,7 @@ nlohmann::ordered_json to_json(const solvers::Estimate& e) {
 }
 
 void print_json(const ProblemFiles& files, const std::vector<Evaluation>& all,
-                const EvaluationOptions& options) {
+                const std::optional<KnownOptimum>& optimum, const EvaluationOptions& options) {
     nlohmann::ordered_json policies = nlohmann::ordered_json::array();
     for (const Evaluation& one : all) {
         const solvers::Summary& s = one.summary;
@@ -101,11 +116,14 @@ void print_json(const ProblemFiles& files, const std::vector<Evaluation>& all,
                             {"illegal_actions", s.illegal_actions},
                             {"steps", one.steps},
                             {"seconds", one.seconds}});
+        if (optimum) policies.back()["below_optimum"] = json_number(optimum->below(one));
     }
-    print("{}", json_document({{"problem", files.name},
-                               {"episodes", options.episodes.episodes},
-                               {"seed", options.episodes.seed},
-                               {"policies", policies}}));
+    nlohmann::ordered_json document{{"problem", files.name},
+                                    {"episodes", options.episodes.episodes},
+                                    {"seed", options.episodes.seed}};
+    if (optimum) document["optimum"] = json_number(optimum->value);
+    document["policies"] = policies;
+    print("{}", json_document(document));
 }
 
 void draw(const rddl_problem& problem, const std::vector<Evaluation>& all,
@@ -134,6 +152,36 @@ void hint_at_chance(const Evaluation& one) {
             one.policy, number_text(*learned));
 }
 
+// That of the horizon in which policies are evaluated.
+std::optional<KnownOptimum> optimum_of(const ProblemFiles& files, const rddl_simulator& simulator,
+                                       const EvaluationOptions& options) {
+    if (options.optimum.empty()) return std::nullopt;
+    const std::int64_t horizon = options.episodes.horizon.value_or(simulator.problem->horizon);
+    Solution solution;
+    if (options.optimum == "now") {
+        SolveOptions solving;
+        solving.cheat = options.planning.cheat;
+        solving.limits.horizon = horizon > 0 ? horizon : -1;
+        solving.limits.memory = files.memory_limit;
+        solving.limits.threads = options.episodes.threads;
+        SolvedSize size;
+        solution = solve(files, options.load, solving, size);
+    } else {
+        try {
+            solution = read_solution(simulator, policy_text(options.optimum));
+        } catch (const Failure& failure) {
+            throw Failure(fmt::format("cannot take the optimum from '{}': {}", options.optimum,
+                                      failure.what()),
+                          failure.hint, failure.status);
+        }
+    }
+    if (solution.optimum.horizon != horizon)
+        throw Failure(fmt::format("the optimum in '{}' is of {} steps, and episodes have {}",
+                                  options.optimum, solution.optimum.horizon, horizon),
+                      "solve the problem with this --horizon");
+    return KnownOptimum{solution.optimum.value};
+}
+
 ExitStatus evaluate_all(const EvaluationOptions& options) {
     if (options.chart.any()) require_writable_chart(options.chart);
     ProblemFiles files = options.problem.files();
@@ -142,6 +190,7 @@ ExitStatus evaluate_all(const EvaluationOptions& options) {
     const rddl_simulator& simulator = *problem.simulator;
     require_an_end(*simulator.problem,
                    options.episodes.horizon.value_or(simulator.problem->horizon));
+    const std::optional<KnownOptimum> optimum = optimum_of(files, simulator, options);
     EvaluationOptions chosen = options;
     chosen.episodes.preconditions = Preconditions::Warn;  // so that they are counted
     chosen.episodes.memory_limit = files.memory_limit;
@@ -154,7 +203,8 @@ ExitStatus evaluate_all(const EvaluationOptions& options) {
         explanations.write(name);
     }
     explanations.finish();
-    options.json ? print_json(files, all, options) : print_table(*simulator.problem, all, options);
+    options.json ? print_json(files, all, optimum, options)
+                 : print_table(*simulator.problem, all, optimum, options);
     if (options.chart.any() && !all.empty()) draw(*simulator.problem, all, options);
     for (const Evaluation& one : all)
         if (!options.random && !is_interrupted()) hint_at_chance(one);
@@ -231,7 +281,8 @@ Command compare_command() {
     command.details =
         "Examples:\n"
         "  rddl compare MountainCar_ippc2023 1 --policies random,noop,runs/ppo,runs/cgp\n"
-        "  rddl compare MountainCar_ippc2023 1 --policies noop,runs/ppo --png returns.png";
+        "  rddl compare MountainCar_ippc2023 1 --policies noop,runs/ppo --png returns.png\n"
+        "  rddl compare Elevators_MDP_ippc2011 1 --policies noop,plan:uct --optimum now";
     add_problem_arguments(command, options->problem);
     add_list_option(
         command, "--policies", "POLICY,...",
@@ -239,6 +290,12 @@ Command compare_command() {
         "as plans, planners (plan:NAME,key=value,...)",
         [options](const std::string& name) { add_policy(options->policies, name); })
         .suggestions = {"random", "noop", "rddl"};
+    add_text_option(
+        command, "--optimum", "FILE.optimum",
+        "Show how far policies are below the optimum that 'rddl solve' has found; 'now' "
+        "solves the problem first",
+        options->optimum)
+        .suggestions = {"now"};
     add_common_options(command, *options);
     add_chart_options(command, options->chart);
     command.run = [options] {

@@ -2,8 +2,10 @@
 #include "commands/commands.hpp"
 #include "commands/options.hpp"
 #include "formats/number_text.hpp"
+#include "learning/learned_policy.hpp"
 #include "solvers/cgp/option_table.hpp"
 #include "solvers/cgp/trainee.hpp"
+#include "solvers/ppo/demonstrations.hpp"
 #include "solvers/ppo/option_table.hpp"
 #include "solvers/ppo/trainee.hpp"
 #include "solvers/spaces/refusals.hpp"
@@ -27,6 +29,7 @@ struct TrainOptions {
     ProblemArguments problem;
     LoadOptions load;
     solvers::TrainingOptions training;
+    solvers::Settings settings;  // besides those of the learner
     std::string folder;
 };
 
@@ -52,6 +55,8 @@ ExitStatus run_training(const TrainOptions& options, const rddl_simulator& simul
     training.memory_limit = options.problem.memory_limit;
     training.settings = {{"--real", options.load.real == RealType::Float ? "float" : "double"},
                          {"--fast-math", options.load.passes.fast_math ? "true" : "false"}};
+    training.settings.insert(training.settings.end(), options.settings.begin(),
+                             options.settings.end());
     training.stops = is_interrupted;
     give_up_if_interrupted("making the learner");
     if (!training.quiet && !trainee.note.empty()) tell("rddl: note: {}\n", trainee.note);
@@ -69,6 +74,7 @@ ExitStatus run_training(const TrainOptions& options, const rddl_simulator& simul
     if (!training.quiet && !result.not_finite.empty())
         tell("rddl: warning: the return of the last evaluation is not finite: {}\n",
              result.not_finite);
+    if (!training.quiet && !result.no_better.empty()) tell("rddl: warning: {}\n", result.no_better);
     if (!result.interrupted) return success;
     if (!ranks.is_first()) return interrupted_status();
     tell("rddl: interrupted; 'rddl train {} ... --out {} --resume' continues it\n", trainee.solver,
@@ -150,9 +156,32 @@ void add_learner_options(Command& command, const solvers::OptionTable<Options>& 
 
 struct TrainPpoOptions : TrainOptions {
     solvers::PpoOptions ppo;
+    std::string imitated;  // a policy's name; "": nothing is imitated
+    std::int64_t imitated_episodes = 20;
 };
 
-ExitStatus train_ppo(const TrainPpoOptions& options, const solvers::Ranks& ranks) {
+// Plays the policy that is to be imitated, with a progress bar.
+solvers::Demonstrate demonstrate(const rddl_simulator& simulator, const TrainPpoOptions& options) {
+    if (options.imitated.empty()) return {};
+    return [&simulator, &options](const solvers::PpoModel& model) {
+        const std::uint64_t seed = options.training.seed + 0x696D6974;  // not that of evaluations
+        const solvers::Policy policy =
+            policy_named(simulator, options.imitated, false, seed, options.problem.memory_limit);
+        solvers::EpisodeOptions episodes;
+        episodes.episodes = options.imitated_episodes;
+        episodes.seed = seed;
+        if (simulator.problem->horizon == 0) episodes.horizon = 1000;
+        return solvers::demonstrations(simulator, model, policy, episodes, is_interrupted);
+    };
+}
+
+ExitStatus train_ppo(TrainPpoOptions options, const solvers::Ranks& ranks) {
+    if (!options.imitated.empty())
+        options.settings = {{"--imitate", options.imitated},
+                            {"--imitate-episodes", std::to_string(options.imitated_episodes)}};
+    if (!options.imitated.empty() && (ranks.count > 1 || options.ppo.recurrent > 0))
+        throw Failure("--imitate goes neither with --recurrent nor with several ranks", {},
+                      usage_error);
     const LoadedProblem problem = load_problem(options.problem.files(), options.load);
     const rddl_simulator& simulator = *problem.simulator;
     solvers::require_an_end_to_learn(*simulator.problem);
@@ -161,7 +190,9 @@ ExitStatus train_ppo(const TrainPpoOptions& options, const solvers::Ranks& ranks
     ppo.stops = stops_of(ranks);
     ppo.memory_limit = options.problem.memory_limit;
     ppo.shortens_rollout = !ppo.names_rollout;
-    return run_training(options, simulator, solvers::ppo_trainee(simulator, ppo, ranks), ranks);
+    return run_training(
+        options, simulator,
+        solvers::ppo_trainee(simulator, ppo, ranks, demonstrate(simulator, options)), ranks);
 }
 
 Command ppo_command() {
@@ -177,8 +208,18 @@ Command ppo_command() {
         "  rddl train ppo MountainCar_ippc2023 1 --out runs/a\n"
         "  rddl train ppo CartPole_Continuous_gym 0 --preset sb3 --steps 100000 --seed 3\n"
         "  rddl train ppo SkillTeaching_POMDP_ippc2011 1 --recurrent 32\n"
+        "  rddl train ppo RaceCar_ippc2023 2 --imitate plan:cem,seconds=0.1\n"
         "  rddl train ppo MountainCar_ippc2023 1 --out runs/a --resume";
     add_common_options(command, *options);
+    add_option(command, "--imitate", "POLICY",
+               "Begin as this policy acts, such as plan:cem or runs/a: for goals behind costs",
+               [options](const std::string& name) {
+                   if (planners::is_planner(name)) planners::require_planner(name);
+                   options->imitated = name;
+               });
+    add_number_option<std::int64_t>(command, "--imitate-episodes", "N",
+                                    "Episodes of it that are imitated (20)",
+                                    options->imitated_episodes, 1, 1'000'000);
     add_learner_options(command, solvers::ppo_option_table(), options->ppo);
     command.run = [options] {
         return train_on_ranks(*options, [options](const solvers::Ranks& ranks) {

@@ -1,0 +1,76 @@
+// What learners say of no-op and random, and `rddl train ppo --imitate`.
+#include "program.hpp"
+
+namespace rddlc::cli {
+namespace {
+
+// A goal behind costs: each of twelve steps to the right costs 1, and the last one pays 100. Who
+// acts at random never gets there, so that learners find out that it is best to stay.
+constexpr const char* corridor = R"(
+domain corridor {
+    pvariables {
+        place : { state-fluent, int, default = 0 };
+        right : { action-fluent, bool, default = false };
+        left  : { action-fluent, bool, default = false };
+    };
+    cpfs {
+        place' = if (place >= 12) then place
+                 else if (right ^ ~left) then place + 1
+                 else if (left) then 0 else place;
+    };
+    reward = if (place >= 12) then 0.0
+             else (if (right ^ ~left ^ place == 11) then 100.0 else 0.0) - (if (right | left) then 1.0 else 0.0);
+}
+non-fluents n { domain = corridor; }
+instance corridor_1 { domain = corridor; non-fluents = n; max-nondef-actions = 1; horizon = 14; discount = 1.0; }
+)";
+
+constexpr const char* few =
+    " --engine interpreter --envs 8 --rollout 32 --minibatch 64 --epochs 1 --hidden 16 ";
+
+class Imitation : public Program {
+  protected:
+    Imitation() { write_file(folder_ / "p.rddl", corridor); }
+};
+
+TEST_F(Imitation, OfTheOptimumReachesGoalsBehindCosts) {
+    ASSERT_EQ(run("solve p.rddl --out best.optimum").status, 0);
+    const Outcome alone = run(fmt::format("train ppo p.rddl --steps 1024 --out a{}", few));
+    EXPECT_EQ(alone.status, 0) << alone.err;
+    expect_part(alone.err, "noop 0  random -");
+    expect_part(alone.err, "warning: the best policy");
+    expect_part(alone.err, "is no better than no-op (0)");
+
+    const std::string command = fmt::format(
+        "train ppo p.rddl --steps 512 --imitate best.optimum --imitate-episodes 4{}", few);
+    const Outcome shown = run(command + "--out b");
+    EXPECT_EQ(shown.status, 0) << shown.err;
+    expect_part(shown.err, "whose episodes return 88; the policy that imitates it 88\n");
+    expect_part(shown.out, "best return 88 in 14 steps");
+    EXPECT_EQ(shown.err.find("warning"), std::string::npos) << shown.err;
+
+    // The same bytes again, on more threads.
+    ASSERT_EQ(run(command + "--threads 3 --out c").status, 0);
+    EXPECT_EQ(read_file(folder_ / "b" / "policy.json"), read_file(folder_ / "c" / "policy.json"));
+    const Outcome other = run(fmt::format("train ppo p.rddl --steps 1024 --resume --out b{}", few));
+    EXPECT_EQ(other.status, 0) << "a run that has begun needs no imitation: " << other.err;
+}
+
+TEST_F(Imitation, IsRefusedWhereItCannotBe) {
+    const Outcome recurrent = run(fmt::format(
+        "train ppo p.rddl --imitate noop --recurrent 8 --rollout 8 --minibatch 8{}", interpreted));
+    EXPECT_EQ(recurrent.status, 2);
+    expect_part(recurrent.err, "--imitate goes neither with --recurrent nor with several ranks");
+    EXPECT_EQ(run("train ppo p.rddl --imitate plan:none").status, 2);
+    EXPECT_EQ(run(fmt::format("train ppo p.rddl --imitate nothing{}", few)).status, 2);
+}
+
+TEST_F(Imitation, LearnersOfFormulasWarnAsWell) {
+    const Outcome cgp = run(fmt::format("train cgp p.rddl --gens 2 --out g{}", interpreted));
+    EXPECT_EQ(cgp.status, 0) << cgp.err;
+    expect_part(cgp.err, "noop 0  random -");
+    expect_part(cgp.err, "is no better than no-op (0). If better is possible, try more --gens");
+}
+
+}  // namespace
+}  // namespace rddlc::cli
