@@ -15,6 +15,7 @@
 #include "passes/aggregations/search_intervals.hpp"
 #include "passes/aggregations/skip_zero_terms.hpp"
 #include "passes/aggregations/tabulate_counts.hpp"
+#include "passes/aggregations/tabulate_thresholds.hpp"
 #include "passes/arithmetic/compare_magnitudes.hpp"
 #include "passes/arithmetic/fast_math.hpp"
 #include "passes/arithmetic/find_ranges.hpp"
@@ -80,6 +81,8 @@ constexpr Pass in_order[] = {
      passes::count_bools},
     {"compare_counts", "an exists or forall of what is counted, too, compares the count",
      passes::compare_counts},
+    {"tabulate_thresholds", "draws from weights that tables and small ints decide search a table",
+     passes::tabulate_thresholds},
     {"merge_draws", "draws of two branches that have the same random numbers become one",
      passes::merge_draws},
     {"factor_aggregations", "aggregations leave out factors that they do not change",
