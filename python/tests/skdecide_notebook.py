@@ -2,7 +2,7 @@
 `skdecide.hub.domain.rddl`.
 
     python -m venv .venv-skdecide
-    .venv-skdecide/bin/pip install -r python/tests/skdecide/requirements.txt
+    .venv-skdecide/bin/pip install -r python/tests/requirements_skdecide.txt
     PYTHONPATH=build/python .venv-skdecide/bin/python python/tests/skdecide_notebook.py 16_rddl_tuto.ipynb
 
 The notebook is notebooks/16_rddl_tuto.ipynb of https://github.com/airbus/scikit-decide, in which the

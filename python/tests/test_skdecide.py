@@ -1,6 +1,7 @@
 """rddlc.skdecide with scikit-decide's own solvers, which scripts/test.sh does not install:
 
-    pip install scikit-decide gymnasium && PYTHONPATH=build/python python python/tests/test_skdecide.py
+    python -m venv V && V/bin/pip install -r python/tests/requirements_skdecide.txt
+    PYTHONPATH=build/python V/bin/python python/tests/test_skdecide.py
 """
 
 from __future__ import annotations

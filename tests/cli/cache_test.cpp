@@ -40,7 +40,7 @@ class Cache : public Program {
 };
 
 TEST_F(Cache, CompilesOnceAndRepairsTheCache) {
-    const std::string run_it = "run domain.rddl instance.rddl --quiet";
+    const std::string run_it = "run domain.rddl instance.rddl --engine compiled --quiet";
     ASSERT_EQ(run(run_it).status, 0);
     const auto kept = shared_objects(cache());
     ASSERT_EQ(kept.size(), 1u);
@@ -60,7 +60,7 @@ TEST_F(Cache, CompilesOnceAndRepairsTheCache) {
     EXPECT_GT(std::filesystem::file_size(kept[0]), 1000u);
 
     // Another text is another entry.
-    EXPECT_EQ(run("run domain.rddl instance.rddl --quiet --no-cache").status, 0);
+    EXPECT_EQ(run("run domain.rddl instance.rddl --engine compiled --quiet --no-cache").status, 0);
     EXPECT_EQ(shared_objects(cache()).size(), 1u);
     std::string domain = tanks_domain;
     domain.replace(domain.find("2.0 else"), 3, "3.0");
@@ -71,7 +71,7 @@ TEST_F(Cache, CompilesOnceAndRepairsTheCache) {
 
 TEST_F(Cache, PreparesForAllProblemsOnce) {
     write_file(folder_ / "log.sh", "echo \"$@\" >>log; exec c++ \"$@\"");
-    const std::string run_it = "run domain.rddl instance.rddl --quiet --no-cache";
+    const std::string run_it = "run domain.rddl instance.rddl --engine compiled --quiet --no-cache";
     const std::string compiler = "CXX='sh log.sh'";
     ASSERT_EQ(run(run_it, compiler).status, 0);
     ASSERT_EQ(run(run_it, compiler).status, 0);
@@ -85,13 +85,13 @@ TEST_F(Cache, KeepsWhatIsPreparedForTheLatestToolchains) {
     for (const char* name : {"a", "b", "c", "d"})
         write_file(cache() / "rddlc" / (std::string(name) + ".runtime") / "batches.o", "");
     std::filesystem::permissions(cache() / "rddlc", std::filesystem::perms::owner_all);
-    ASSERT_EQ(run("run domain.rddl instance.rddl --quiet").status, 0);
+    ASSERT_EQ(run("run domain.rddl instance.rddl --engine compiled --quiet").status, 0);
     EXPECT_EQ(prepared_folders(cache()).size(), 4u);
     EXPECT_FALSE(std::filesystem::exists(cache() / "rddlc" / "a.runtime"));
 }
 
 TEST_F(Cache, CompilesWithoutAPrecompiledHeader) {
-    const std::string run_it = "run domain.rddl instance.rddl --quiet --no-cache";
+    const std::string run_it = "run domain.rddl instance.rddl --engine compiled --quiet --no-cache";
     // A compiler that cannot precompile headers is not asked again.
     write_file(folder_ / "log.sh",
                "echo \"$@\" >>log; case \"$*\" in *c++-header*) exit 1; esac; exec c++ \"$@\"");
@@ -101,7 +101,7 @@ TEST_F(Cache, CompilesWithoutAPrecompiledHeader) {
 }
 
 TEST_F(Cache, RepairsWhatIsLinked) {
-    const std::string run_it = "run domain.rddl instance.rddl --quiet --no-cache";
+    const std::string run_it = "run domain.rddl instance.rddl --engine compiled --quiet --no-cache";
     ASSERT_EQ(run(run_it).status, 0);
     const auto object = prepared_folders(cache()).at(0) / "batches.o";
     const std::string intact = read_file(object);
@@ -118,7 +118,7 @@ TEST_F(Cache, RemovesWhatKilledCompilationsLeave) {
     std::filesystem::permissions(cache() / "rddlc", std::filesystem::perms::owner_all);
     const int lock = open(used.c_str(), O_RDONLY | O_DIRECTORY);
     ASSERT_EQ(flock(lock, LOCK_EX), 0);
-    EXPECT_EQ(run("run domain.rddl instance.rddl --quiet").status, 0);
+    EXPECT_EQ(run("run domain.rddl instance.rddl --engine compiled --quiet").status, 0);
     EXPECT_FALSE(std::filesystem::exists(left));
     EXPECT_TRUE(std::filesystem::exists(used / "simulator.cpp"));
     close(lock);
@@ -126,7 +126,7 @@ TEST_F(Cache, RemovesWhatKilledCompilationsLeave) {
 
 TEST_F(Cache, LoadsNothingThatOthersMayHaveWritten) {
     namespace fs = std::filesystem;
-    const std::string run_it = "run domain.rddl instance.rddl --quiet";
+    const std::string run_it = "run domain.rddl instance.rddl --engine compiled --quiet";
     const fs::path folder = cache() / "rddlc";
     ASSERT_EQ(run(run_it).status, 0);
     EXPECT_EQ(fs::status(folder).permissions(), fs::perms::owner_all);
@@ -155,9 +155,9 @@ TEST_F(Cache, LoadsNothingThatOthersMayHaveWritten) {
 }
 
 TEST_F(Cache, FillsTheCacheInSeveralProcessesAtOnce) {
-    const std::string both =
-        fmt::format("({0}) & first=$!; ({0}) & second=$!; wait $first && wait $second",
-                    command("run domain.rddl instance.rddl --quiet") + " >/dev/null");
+    const std::string both = fmt::format(
+        "({0}) & first=$!; ({0}) & second=$!; wait $first && wait $second",
+        command("run domain.rddl instance.rddl --engine compiled --quiet") + " >/dev/null");
     EXPECT_EQ(std::system(both.c_str()), 0);
     EXPECT_EQ(prepared_folders(cache()).size(), 1u);
     EXPECT_EQ(shared_objects(cache()).size(), 1u);
@@ -166,7 +166,8 @@ TEST_F(Cache, FillsTheCacheInSeveralProcessesAtOnce) {
 
 TEST_F(Program, TellsOfWrongEnvironmentVariables) {
     const auto told = [&](const std::string& environment) {
-        const Outcome outcome = run("run domain.rddl instance.rddl --quiet", environment);
+        const Outcome outcome =
+            run("run domain.rddl instance.rddl --engine compiled --quiet", environment);
         EXPECT_EQ(outcome.status, environment.ends_with("= ") ? 0 : 1) << environment;
         return outcome.err;
     };
@@ -180,7 +181,8 @@ TEST_F(Program, TellsOfWrongEnvironmentVariables) {
 
 TEST_F(Program, TellsOfACompilerThatMakesNothing) {
     use_own_cache();
-    const Outcome outcome = run("run domain.rddl instance.rddl --quiet", "CXX=/bin/true ");
+    const Outcome outcome =
+        run("run domain.rddl instance.rddl --engine compiled --quiet", "CXX=/bin/true ");
     EXPECT_EQ(outcome.status, 1);
     EXPECT_TRUE(
         outcome.err.starts_with("error: the C++ compiler '/bin/true' ends with status 0, "

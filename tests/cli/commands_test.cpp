@@ -276,7 +276,8 @@ TEST_F(Program, NamesItsOwnExplanation) {
             << arguments << '\n'
             << outcome.err;
     }
-    const Outcome unbuilt = run("run domain.rddl instance.rddl --no-cache", "CXX=nosuch");
+    const Outcome unbuilt =
+        run("run domain.rddl instance.rddl --engine compiled --no-cache", "CXX=nosuch");
     EXPECT_EQ(unbuilt.status, 1);
     EXPECT_NE(unbuilt.err.find("\n'rddl --explain E0905' explains it\n"), std::string::npos)
         << unbuilt.err;
@@ -576,7 +577,13 @@ TEST_F(Program, EndsCleanlyWhenInterrupted) {
 }
 
 TEST_F(Program, NeedsNoCompilerToInterpret) {
-    const Outcome compiled = run("run domain.rddl instance.rddl", "CXX=/no/such/compiler");
+    const Outcome by_itself = run("run domain.rddl instance.rddl", "CXX=/no/such/compiler");
+    EXPECT_EQ(by_itself.status, 0);
+    EXPECT_EQ(by_itself.err,
+              "warning: there is no C++ compiler '/no/such/compiler': the problem is interpreted, "
+              "which is slower\n");
+    const Outcome compiled =
+        run("run domain.rddl instance.rddl --engine compiled", "CXX=/no/such/compiler");
     EXPECT_EQ(compiled.status, 1);
     EXPECT_NE(compiled.err.find("--engine=interpreter"), std::string::npos) << compiled.err;
     const std::string interpret = std::string("run domain.rddl instance.rddl") + interpreted;

@@ -107,7 +107,8 @@ TEST_F(Externals, AreCompiledAgainWhenTheHeaderOrWhatItIncludesChanges) {
 TEST_F(Externals, MayComeFromASharedObject) {
     make_library(library);
     EXPECT_EQ(water("--extern library.so --engine interpreter"), 12.75);
-    const Outcome outcome = run("run pond.rddl --extern library.so");
+    EXPECT_EQ(water("--extern library.so"), 12.75);
+    const Outcome outcome = run("run pond.rddl --engine compiled --extern library.so");
     EXPECT_EQ(outcome.status, 2);
     EXPECT_NE(outcome.err.find("takes external functions from a C++ header"), std::string::npos);
 }

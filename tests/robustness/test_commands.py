@@ -98,7 +98,7 @@ class Output(CommandTest):
         self.assert_refused(result, "E0905")
         self.assertIn("set CXX", result.errors)
         self.assertEqual(self.names(), [])
-        result = self.run_command(RDDL, "run", *PROBLEM,
+        result = self.run_command(RDDL, "run", *PROBLEM, "--engine=compiled",
                                   environment={"CXX": "no-c++", "XDG_CACHE_HOME": str(self.folder)})
         self.assertEqual(result.status, DIAGNOSED, result)
         self.assertIn("no-c++", result.errors)
@@ -116,7 +116,7 @@ class Blame(CommandTest):
             compiler = "sh compiler.sh"
         environment = {"CXX": compiler, "XDG_CACHE_HOME": str(self.folder / "cache")}
         return [self.run_command(*words, environment=environment) for words in (
-            [RDDLC, *PROBLEM, "-o", "sim.so"], [RDDL, "run", *PROBLEM, "--quiet"])]
+            [RDDLC, *PROBLEM, "-o", "sim.so"], [RDDL, "run", *PROBLEM, "--engine=compiled", "--quiet"])]
 
     def test_compilers_that_fail(self):
         for compiler, says in (

@@ -177,7 +177,7 @@ class FullDisk(CommandTest):
         self.assertGreater(self.fill_at_each_call(
             ["sim.so"], RDDLC, "domain.rddl", "instance.rddl", "-o", "sim.so"), 5)
         self.assertGreater(self.fill_at_each_call(
-            [], RDDL, "run", "domain.rddl", "instance.rddl", "--quiet"), 10)
+            [], RDDL, "run", "domain.rddl", "instance.rddl", "--engine=compiled", "--quiet"), 10)
 
     def test_compilers_that_find_no_room(self):
         """The real compiler, at limits of which the smallest stop ourselves."""
@@ -187,7 +187,7 @@ class FullDisk(CommandTest):
                 signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
                 resource.setrlimit(resource.RLIMIT_FSIZE, (most, most))
             for words in ([RDDLC, "domain.rddl", "instance.rddl", "-o", "sim.so"],
-                          [RDDL, "run", "domain.rddl", "instance.rddl", "--quiet"]):
+                          [RDDL, "run", "domain.rddl", "instance.rddl", "--engine=compiled", "--quiet"]):
                 result = self.run_command(
                     *words, environment={**self.environment, "CXX": "sh quick_compiler.sh"},
                     preexec_fn=limit_files)

@@ -108,7 +108,7 @@ class Signals(ProcessTest):
     def test_compilers_end_with_those_who_wait_for_them(self):
         self.write("compiler.sh", SLOW_COMPILER)
         environment = {"CXX": "sh compiler.sh", "XDG_CACHE_HOME": str(self.folder / "cache")}
-        for words in [RDDL, "run", *PROBLEM, "--quiet"], [RDDLC, *PROBLEM, "-o", "sim.so"]:
+        for words in [RDDL, "run", *PROBLEM, "--engine=compiled", "--quiet"], [RDDLC, *PROBLEM, "-o", "sim.so"]:
             for number in signal.SIGKILL, signal.SIGTERM:
                 if words[0] == RDDL and number == signal.SIGTERM:
                     continue  # It waits for its compilers.
@@ -124,7 +124,7 @@ class Signals(ProcessTest):
     def test_compilers_read_nothing(self):
         """The lines of replay are not theirs."""
         self.write("compiler.sh", "cat > read; exit 1")
-        self.run_command(RDDL, "replay", *PROBLEM, input=b"{}\n", environment={
+        self.run_command(RDDL, "replay", *PROBLEM, "--engine=compiled", input=b"{}\n", environment={
             "CXX": "sh compiler.sh", "XDG_CACHE_HOME": str(self.folder / "cache")})
         self.assertEqual((self.folder / "read").read_text(), "")
 
@@ -132,7 +132,7 @@ class Signals(ProcessTest):
 class Stampede(ProcessTest):
     """Many first runs at the same time, some of which are killed."""
 
-    RUN = [RDDL, "run", *PROBLEM, "--quiet"]
+    RUN = [RDDL, "run", *PROBLEM, "--engine=compiled", "--quiet"]
 
     @classmethod
     def setUpClass(cls) -> None:

@@ -18,12 +18,6 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-int open_place(const std::filesystem::path& place) {
-    const int folder = ::open(place.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-    if (folder >= 0) return folder;
-    return ::open(place.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_CLOEXEC, 0600);
-}
-
 // Whether another process has the lock, as opposed to a file system without locks.
 bool is_taken(int descriptor) {
     return ::flock(descriptor, LOCK_EX | LOCK_NB) != 0 && (errno == EWOULDBLOCK || errno == EINTR);
@@ -31,8 +25,8 @@ bool is_taken(int descriptor) {
 
 }  // namespace
 
-BuildersTurn::BuildersTurn(const std::filesystem::path& place, const std::stop_token& stop)
-    : descriptor_(open_place(place)) {
+BuildersTurn::BuildersTurn(const std::filesystem::path& folder, const std::stop_token& stop)
+    : descriptor_(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
     if (descriptor_ < 0 || !is_taken(descriptor_)) return;
     const bool is_background = stop.stop_possible();
     if (!is_background && is_terminal(STDERR_FILENO))

@@ -66,28 +66,35 @@ class CompilingMessage {
     std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
 };
 
-// The lock of a file beside the object, which is removed at the end.
-class ObjectsTurn {
+// A turn by the lock of an empty folder, which is removed at the end. Of those that wait for it
+// some may then begin at once. WorkFolder removes what killed processes leave.
+class NamedTurn {
   public:
-    ObjectsTurn(const fs::path& object, const std::stop_token& stop)
-        : file_(object.string() + ".lock"), turn_(file_, stop) {}
-    ~ObjectsTurn() {
+    NamedTurn(const fs::path& cache, const std::string& name, const std::stop_token& stop)
+        : folder_(made(cache / ("building-" + name))), turn_(folder_, stop) {}
+    ~NamedTurn() {
         std::error_code ignored;
-        fs::remove(file_, ignored);
+        fs::remove(folder_, ignored);
     }
-    ObjectsTurn(const ObjectsTurn&) = delete;
-    ObjectsTurn& operator=(const ObjectsTurn&) = delete;
+    NamedTurn(const NamedTurn&) = delete;
+    NamedTurn& operator=(const NamedTurn&) = delete;
 
   private:
-    fs::path file_;
+    static fs::path made(fs::path folder) {
+        std::error_code ignored;
+        fs::create_directory(folder, ignored);
+        return folder;
+    }
+
+    fs::path folder_;
     BuildersTurn turn_;
 };
 
 // Builds in the background take as many turns as half of the machine has cores.
-fs::path background_turn(const fs::path& target) {
+std::string background_turn(const fs::path& target) {
     const std::size_t turns = std::max(1U, std::thread::hardware_concurrency() / 2);
     const std::size_t turn = std::hash<std::string>()(target.filename().string()) % turns;
-    return target.parent_path() / fmt::format("background-{}.lock", turn);
+    return fmt::format("background-{}", turn);
 }
 
 [[noreturn]] void fail_without_a_word(const Diagnostics& diagnostics) {
@@ -141,9 +148,11 @@ CachedObject cached_object(const std::string& text, const CacheOptions& options)
     };
     if (is_there()) return {target, std::nullopt};
     const CompilingMessage message(options);
-    std::optional<BuildersTurn> background;
-    if (options.stop.stop_possible()) background.emplace(background_turn(target), options.stop);
-    const ObjectsTurn turn(target, options.stop);
+    const fs::path cache = target.parent_path();
+    std::optional<NamedTurn> background;
+    if (options.stop.stop_possible())
+        background.emplace(cache, background_turn(target), options.stop);
+    const NamedTurn turn(cache, target.stem().string(), options.stop);
     if (is_there()) {  // by another process
         static_cast<void>(message.done());
         return {target, std::nullopt};
