@@ -1,12 +1,12 @@
-// What learners say of no-op and random, and `rddl train ppo --imitate`.
+// What learners report about no-op and random, and `rddl train ppo --imitate`.
 #include "program.hpp"
 
 namespace rddlc::cli {
 namespace {
 
-// A goal behind costs: each of twelve steps costs 1, to the right and to the left in turn, and the last
-// one pays 100. A wrong step leads back to the beginning, so that random actions never get there, and
-// learners find out that it is best to stay.
+// A goal behind costs: each of twelve steps costs 1, to the right and to the left in turn, and the
+// last one pays 100. A wrong step leads back to the beginning, so that random actions never get
+// there, and learners find out that it is best to stay.
 constexpr const char* corridor = R"(
 domain corridor {
     pvariables {

@@ -21,12 +21,12 @@ struct MarkovModel {
     // Choices of state s are first_choice[s] .. first_choice[s + 1]; the last states may have none,
     // since nothing is done in them within the horizon.
     std::vector<std::uint64_t> first_choice;
-    // Of a choice: its action, the mean reward, and transitions first_transition[c] ..
+    // Each choice: its action, the mean reward, and transitions first_transition[c] ..
     // first_transition[c + 1].
     std::vector<std::uint32_t> action;
     std::vector<double> reward;
     std::vector<std::uint64_t> first_transition;
-    // Of a transition. What ends the episode is not among them, so probabilities sum up to 1 or
+    // Each transition. Those that end the episode are left out, so probabilities sum up to 1 or
     // less.
     std::vector<StateNumber> to;
     std::vector<double> probability;
@@ -55,8 +55,8 @@ struct ModelLimits {
 MarkovModel markov_model(const ir::Interpreter& interpreter, std::vector<std::byte> actions,
                          const ModelLimits& limits);
 
-// Calls work(0) .. work(count - 1) from so many threads (0: one per core). What one of them throws
-// comes out of this.
+// Calls work(0) .. work(count - 1) from so many threads (0: one per core). An
+// exception of one of them comes out of this.
 void in_parallel(std::size_t count, int threads, const std::function<void(std::size_t)>& work);
 
 // How many states a record can have: 2 for each bool, and so on; infinite where a number has no

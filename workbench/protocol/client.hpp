@@ -15,7 +15,7 @@
 
 namespace rddlc::workbench {
 
-// What the server says of itself.
+// The server's description of the session.
 struct SessionInit {
     std::string task;  // domain and instance; "" where the server sends none
     std::int64_t rounds = 0;
