@@ -11,20 +11,22 @@ if(TARGET rddlc)
   install(TARGETS rddlc EXPORT rddlcCompilerTargets RUNTIME COMPONENT rddlc)
   install(EXPORT rddlcCompilerTargets NAMESPACE rddlc:: DESTINATION ${package_folder} COMPONENT rddlc)
 endif()
-# Solvers as libraries and as programs (component "solvers").
+# Solvers as libraries and as programs, and planners (component "solvers").
 if(TARGET rddl_ppo)
-  set(solver_targets rddl_solvers rddl_ppo rddl_cgp rddl_solver_program rddl_ppo_program rddl_cgp_program)
+  set(solver_targets rddl_solvers rddl_ppo rddl_cgp rddl_planners rddl_solver_program rddl_ppo_program rddl_cgp_program)
   foreach(target IN LISTS solver_targets)
     string(REGEX REPLACE "^rddl_" "" name ${target})
     set_target_properties(${target} PROPERTIES EXPORT_NAME ${name})
   endforeach()
   install(TARGETS ${solver_targets} rddlc_support rddlc_options EXPORT rddlcSolverTargets COMPONENT solvers)
-  foreach(folder batches policies evaluation spaces action_distribution files ranks training network ppo cgp program)
+  foreach(folder batches policies evaluation spaces action_distribution files options ranks training network ppo cgp program)
     install(DIRECTORY ${PROJECT_SOURCE_DIR}/solvers/${folder} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/solvers
             COMPONENT solvers FILES_MATCHING PATTERN "*.hpp")
   endforeach()
+  install(DIRECTORY ${PROJECT_SOURCE_DIR}/planners DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
+          COMPONENT solvers FILES_MATCHING PATTERN "*.hpp")
   install(FILES ${PROJECT_SOURCE_DIR}/support/failure.hpp ${PROJECT_SOURCE_DIR}/support/memory.hpp
-          ${PROJECT_SOURCE_DIR}/support/files.hpp
+          ${PROJECT_SOURCE_DIR}/support/files.hpp ${PROJECT_SOURCE_DIR}/support/number_word.hpp
           DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/support COMPONENT solvers)
   install(EXPORT rddlcSolverTargets NAMESPACE rddl:: DESTINATION ${package_folder} COMPONENT solvers)
 endif()

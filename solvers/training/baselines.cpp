@@ -40,9 +40,10 @@ bool is_better(const Estimate& learned, const Estimate& baseline) {
 }
 
 constexpr std::string_view advice_for_ppo =
-    "more --steps, another --seed, 'rddl train cgp', or a planner: --policy plan:cem or plan:uct";
+    "more --steps, another --seed, to begin as a planner or no-op acts (rddl train ppo --imitate "
+    "plan:cem), or 'rddl train cgp'";
 constexpr std::string_view advice_for_cgp =
-    "more --gens, another --seed, 'rddl train ppo', or a planner: --policy plan:cem or plan:uct";
+    "more --gens, another --seed, 'rddl train ppo', or a planner (--policy plan:cem or plan:uct)";
 
 }  // namespace
 

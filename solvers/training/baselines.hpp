@@ -1,5 +1,5 @@
-// What a policy earns that has learned nothing: no-op and random, which a learned one has to
-// exceed.
+// Returns of policies that have learned nothing, no-op and random: a learned one has to exceed
+// them.
 #pragma once
 
 #include "solvers/evaluation/episodes.hpp"

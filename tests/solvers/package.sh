@@ -1,5 +1,5 @@
 #!/bin/sh
-# Installs the solvers into a folder of their own and builds a project that finds them there.
+# Installs the solvers and planners into a folder of their own and builds a project that finds them there.
 #   package.sh CMAKE BUILD_FOLDER SOURCE_FOLDER EXAMPLES
 set -eu
 cmake=$1 build=$2 source=$3 examples=$4
@@ -14,3 +14,4 @@ done
 "$cmake" --build "$work/project" > "$work/log" 2>&1 || { cat "$work/log"; exit 1; }
 "$work/project/car" train --out "$work/run" --gens 20
 "$work/project/car" evaluate "$work/run/policy.cgp" | grep "^return"
+"$work/project/plan" | grep "^planned"

@@ -53,11 +53,10 @@ std::vector<std::byte> action_records(const rddl_simulator& simulator, std::size
 
 void require_sight(const rddl_problem& problem, bool cheat) {
     if (problem.partially_observed && !cheat)
-        throw Failure(
-            fmt::format("{} hides its state, and a policy that sees it is none of its own",
-                        name_of(problem)),
-            "--cheat finds the optimum of a policy that sees the state, which no other "
-            "one exceeds");
+        throw Failure(fmt::format("{} hides its state: its policies see observations alone",
+                                  name_of(problem)),
+                      "--cheat finds the optimum of a policy that sees the state, which no other "
+                      "one exceeds");
 }
 
 }  // namespace

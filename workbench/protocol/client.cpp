@@ -15,7 +15,7 @@ namespace rddlc::workbench {
 namespace {
 
 constexpr std::size_t longest_answer = std::size_t{1} << 28;  // bytes
-constexpr int wake_interval = 100;                              // milliseconds
+constexpr int wake_interval = 100;                            // milliseconds
 
 double real_of(const Element& message, std::string_view name) {
     const std::string& text = message.text_of(name);

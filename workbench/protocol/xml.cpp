@@ -34,7 +34,7 @@ std::string with_characters(std::string_view text) {
                          [&](const auto& each) { return text.substr(i).starts_with(each.first); });
         if (found == references.end())
             throw BadMessage(
-                "the message has a reference that is none of &lt; &gt; &amp; &quot; "
+                "the message has a reference other than &lt; &gt; &amp; &quot; "
                 "&apos;");
         out += found->second;
         i += found->first.size();
