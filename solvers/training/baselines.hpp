@@ -1,5 +1,5 @@
-// What a policy earns that has learned nothing: no-op and random, which a learned one has to
-// exceed.
+// The return of policies that have learned nothing: no-op and random. A learned policy has to
+// exceed it.
 #pragma once
 
 #include "solvers/evaluation/episodes.hpp"

@@ -1,4 +1,4 @@
-// What learners say of no-op and random, and `rddl train ppo --imitate`.
+// Messages of learners about no-op and random, and `rddl train ppo --imitate`.
 #include "program.hpp"
 
 namespace rddlc::cli {

@@ -48,8 +48,8 @@ def inner_commands(command: str) -> list[str]:
 
 def options(*words) -> set[str]:
     """The names of the options that --help lists."""
-    part = output(BIN / words[0], *words[1:], "--help").split("\nOptions:\n")[1].split("\n\n")[0]
-    names = re.findall(r"^  (-[^\s,]+(?:, -[^\s,]+)*)", part, re.M)
+    text = output(BIN / words[0], *words[1:], "--help").split("\nExamples:\n")[0]
+    names = re.findall(r"^  (-[^\s,]+(?:, -[^\s,]+)*)", text, re.M)
     return {name for group in names for name in group.split(", ")}
 
 

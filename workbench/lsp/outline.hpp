@@ -1,5 +1,5 @@
-// What a text declares and mentions, whole or broken: found by its words and brackets alone, so
-// that it is there while somebody types. It says nothing of mistakes; the compiler does.
+// The names that a text declares and mentions, whole or broken: found by its words and brackets
+// alone, so that it is there while somebody types. It says nothing of mistakes; the compiler does.
 #pragma once
 
 #include "format/comments.hpp"
@@ -105,7 +105,7 @@ Outline outline_of(std::string_view text);
 
 // "'p" is no word: a letter first, then also digits, '-' and '_', a letter or digit last.
 bool is_name(std::string_view word);
-// Of RDDL's grammar: no name may be one.
+// Whether RDDL's grammar reserves the word: no name may be one.
 bool is_reserved(std::string_view word);
 
 }  // namespace rddlc::lsp

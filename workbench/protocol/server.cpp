@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t most_clients = 64;
 constexpr std::size_t most_unread = 1 << 20;  // bytes, from which on a client is not read
-constexpr int poll_interval = 100;              // milliseconds
+constexpr int poll_interval = 100;            // milliseconds
 
 double now() {
     return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch())
@@ -121,7 +121,7 @@ void ProtocolServer::answer_all(Client& client) {
     }
 }
 
-// What is wrong is said to both sides.
+// Both sides are told what is wrong.
 void ProtocolServer::refuse(Client& client, const std::string& why) {
     if (options_.tell) options_.tell(fmt::format("{}: {}", client.name, why));
     client.output += tagged("error", why) + '\0';
