@@ -212,8 +212,8 @@ Hint hint_to_add(std::string_view section, std::string_view why, Span block,
                  const Context& context) {
     const std::string_view text = context.sources.text(block);
     const std::size_t closing = text.rfind('}');
-    const bool stands_alone = text.substr(0, closing).find_last_not_of(" \t") ==
-                              text.substr(0, closing).rfind('\n');
+    const bool stands_alone =
+        text.substr(0, closing).find_last_not_of(" \t") == text.substr(0, closing).rfind('\n');
     const auto at = static_cast<std::uint32_t>(block.begin + closing);
     return {fmt::format("add '{}'{}", section, why),
             {{{block.file, at, at}, fmt::format("{}    {}\n", stands_alone ? "" : "\n", section)}}};
@@ -348,10 +348,10 @@ void take_non_fluents(const TopLevel& top, const InstanceSections& sections, Blo
 void take_instance(const ast::Instance& instance, const TopLevel& top, Blocks& blocks,
                    Context& context) {
     const InstanceSections sections = choose_sections(instance.sections, context);
-    require_section(sections.horizon, "horizon", "instance", instance.name.span,
-                    hint_to_add("horizon = 40;", ", the number of steps of an episode",
-                                instance.span, context),
-                    context);
+    require_section(
+        sections.horizon, "horizon", "instance", instance.name.span,
+        hint_to_add("horizon = 40;", ", the number of steps of an episode", instance.span, context),
+        context);
     require_section(sections.discount, "discount", "instance", instance.name.span,
                     hint_to_add("discount = 1.0;", "", instance.span, context), context);
     warn_of_other_domain(sections.domain, *blocks.domain, context);
@@ -399,7 +399,8 @@ void check_horizon(const ast::Horizon& horizon, Span span, Context& context) {
 // ".0" behind the number of 'discount = 1;'.
 std::vector<Replacement> added_point(Span section, const Context& context) {
     const std::string_view text = context.sources.text(section);
-    const auto end = static_cast<std::uint32_t>(section.begin + text.find_last_of("0123456789") + 1);
+    const auto end =
+        static_cast<std::uint32_t>(section.begin + text.find_last_of("0123456789") + 1);
     return {{{section.file, end, end}, ".0"}};
 }
 

@@ -46,15 +46,6 @@ Hint hint_for(const Substitute& substitute, Span place) {
     return {std::string(substitute.hint), {{place, std::string(substitute.instead)}}};
 }
 
-// Other brackets around the arguments of "name[...]".
-std::vector<Replacement> round_brackets_of(Span name, Span whole, const Context& context) {
-    const std::string& text = context.sources[whole.file].text();
-    const std::size_t open = text.find('[', name.end);
-    if (open >= whole.end || text[whole.end - 1] != ']') return {};
-    const auto at = static_cast<std::uint32_t>(open);
-    return {{{whole.file, at, at + 1}, "("}, {{whole.file, whole.end - 1, whole.end}, ")"}};
-}
-
 Hint hint_for_unknown(const ast::Name& function, Span whole, const Context& context) {
     const std::string& name = function.text;
     for (const Substitute& substitute : substitutes)
@@ -63,7 +54,7 @@ Hint hint_for_unknown(const ast::Name& function, Span whole, const Context& cont
         return fmt::format("an aggregation is written '{}_{{?x : type}} ...'", name);
     if (context.names.fluents.contains(name))
         return {fmt::format("the fluent's arguments take round brackets: '{}(...)'", name),
-                round_brackets_of(function.span, whole, context)};
+                other_brackets(function.span, whole, "()", context)};
     return suggestion(context, name, function.span, [&] {
         std::vector<std::string> names = function_names();
         std::erase_if(names, [&](const std::string& known) {

@@ -94,6 +94,12 @@ std::string with_article(Role role);
 inline Span without_prime(Span name, bool primed) {
     return {name.file, name.begin, name.end - (primed ? 1 : 0)};
 }
+// The mark behind a name, if nothing but blanks stands between.
+std::optional<Span> mark_behind(Span name, char mark, const Context& context);
+// Other brackets, such as "[]", for those of "name(...)", which end the place `whole`; nothing if they
+// are not there.
+std::vector<Replacement> other_brackets(Span name, Span whole, std::string_view brackets,
+                                        const Context& context);
 // The written name: a state-fluent's next value has a prime.
 std::string written_name(const model::Fluent& fluent, bool next);
 

@@ -61,9 +61,8 @@ std::optional<std::vector<std::optional<std::size_t>>> match_labels(
                 diagnose(bad_label, labels[i].span,
                          fmt::format("'{}' is not a member of type '{}'", literal, type.name))
                     .note(type.span, "declared here")
-                    .with_hint(
-                        suggestion(context, literal, labels[i].span,
-                                   [&] { return as_literals(type.objects); })));
+                    .with_hint(suggestion(context, literal, labels[i].span,
+                                          [&] { return as_literals(type.objects); })));
             sound = false;
             continue;
         }

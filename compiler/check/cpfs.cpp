@@ -76,7 +76,7 @@ class CpfChecker {
                          fmt::format("{} '{}' has no CPF{}", name_of(fluent.role), fluent.name,
                                      of_policy_ ? " in the policy" : ""))
                     .with_hint({fmt::format("define it in 'cpfs {{ ... }};': {} = ...", name),
-                                added_cpf(fluent, is_for_others)}));
+                                added_cpf(fluent)}));
         }
     }
 
@@ -90,16 +90,15 @@ class CpfChecker {
     }
 
     // A state-fluent that keeps its value, at the beginning of the cpfs.
-    std::vector<Replacement> added_cpf(const model::Fluent& fluent, bool is_of_domain) const {
-        if (fluent.role != Role::State || is_of_domain || keyword_.end == 0) return {};
-        const std::string& text = context_.sources[keyword_.file].text();
-        const std::size_t open = text.find('{', keyword_.end);
+    std::vector<Replacement> added_cpf(const model::Fluent& fluent) const {
+        if (fluent.role != Role::State || keyword_.end == 0) return {};
+        const auto open = mark_behind(keyword_, '{', context_);
+        if (!open) return {};
         std::string variables;
         for (std::size_t i = 0; i < fluent.parameters.size(); ++i)
             variables += fmt::format("{}?x{}", i == 0 ? "" : ", ", i + 1);
         if (!variables.empty()) variables = fmt::format("({})", variables);
-        const auto at = static_cast<std::uint32_t>(open + 1);
-        return {{{keyword_.file, at, at},
+        return {{point_behind(*open),
                  fmt::format("\n        {0}'{1} = {0}{1};", fluent.name, variables)}};
     }
 
@@ -114,9 +113,10 @@ class CpfChecker {
         const auto meant =
             name_meant(context_, cpf.name.text, [&] { return keys(context_.names.fluents); });
         if (meant) meant_.insert(context_.names.fluents.at(*meant));
-        context_.report(diagnose(undeclared_cpf, cpf.name.span,
-                                 fmt::format("'{}' is not declared in 'pvariables'", cpf.name.text))
-                            .with_hint(hint_of_name(meant, without_prime(cpf.name.span, cpf.primed))));
+        context_.report(
+            diagnose(undeclared_cpf, cpf.name.span,
+                     fmt::format("'{}' is not declared in 'pvariables'", cpf.name.text))
+                .with_hint(hint_of_name(meant, without_prime(cpf.name.span, cpf.primed))));
     }
 
     // Whether a CPF may be written like this for this fluent.

@@ -31,20 +31,11 @@ std::string as_subtraction(const std::string& name, const Context& context) {
     return all_known ? every : "";
 }
 
-// Other brackets around the arguments of "name(...)".
-std::vector<Replacement> square_brackets(Span name, Span whole, const Context& context) {
-    const std::string& text = context.sources[whole.file].text();
-    const std::size_t open = text.find('(', name.end);
-    if (open >= whole.end || text[whole.end - 1] != ')') return {};
-    const auto at = static_cast<std::uint32_t>(open);
-    return {{{whole.file, at, at + 1}, "["}, {{whole.file, whole.end - 1, whole.end}, "]"}};
-}
-
 // A call written with the wrong brackets, or a distribution in lower case.
 Hint hint_for_call(const std::string& name, Span place, Span whole, const Context& context) {
     if (function_named(name))
         return {fmt::format("functions take square brackets: '{}[...]'", name),
-                square_brackets(place, whole, context)};
+                other_brackets(place, whole, "[]", context)};
     if (reduction_named(name))
         return fmt::format("an aggregation is written '{}_{{?x : type}} ...'", name);
     return {};

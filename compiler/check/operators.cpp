@@ -210,9 +210,8 @@ Typed check_lazy_logic(const BinaryPlace& place, Typed left, Typed right, Scope&
         return operand && (operand->type == model::int_type || operand->type == model::real_type);
     };
     if (!hint.empty() && is_int_or_real(left) && is_int_or_real(right)) {
-        scope.context.report(
-            diagnose(bool_needed, place.op_span, "'^' joins bools, found numbers")
-                .with_hint(hint_for_power(place, scope.context)));
+        scope.context.report(diagnose(bool_needed, place.op_span, "'^' joins bools, found numbers")
+                                 .with_hint(hint_for_power(place, scope.context)));
         return std::nullopt;
     }
     const bool swap = right_goes_first(place.right);

@@ -35,14 +35,14 @@ void report_unknown(const std::string& name, Span span, Scope& scope) {
     Diagnostic diagnostic{unknown_variable, span,
                           fmt::format("variable '?{}' is not bound here", name)};
     const auto ended = std::ranges::find(scope.ended, name, &EndedBinding::name);
-    if (ended != scope.ended.end()) {
-        diagnostic.notes.push_back(
-            {last_character(ended->span),
-             fmt::format("the '{}' that binds '?{}' ends here", ended->binder, name)});
-    } else {
-        diagnostic = std::move(diagnostic).with_hint(hint_for_unbound(name, span, scope));
+    if (ended == scope.ended.end()) {
+        scope.context.report(std::move(diagnostic).with_hint(hint_for_unbound(name, span, scope)));
+        return;
     }
-    scope.context.report(std::move(diagnostic));
+    scope.context.report(
+        std::move(diagnostic)
+            .note(last_character(ended->span),
+                  fmt::format("the '{}' that binds '?{}' ends here", ended->binder, name)));
 }
 
 }  // namespace

@@ -48,8 +48,8 @@ std::string fluent_is(const model::Fluent& fluent, const Context& context) {
     return fmt::format("'{}' is {}", fluent.name, describe(context, fluent.range));
 }
 
-void report_value(Code code, Span span, const model::Fluent& fluent, std::string found,
-                  Hint hint, Context& context) {
+void report_value(Code code, Span span, const model::Fluent& fluent, std::string found, Hint hint,
+                  Context& context) {
     context.report(
         diagnose(code, span, fmt::format("{}, found {}", fluent_is(fluent, context), found))
             .note(fluent.span, "declared here")
@@ -87,7 +87,8 @@ std::optional<model::Value> object_value(const ast::Symbol& symbol, Span span,
                : fmt::format("the unknown name '{}'", symbol.name);
     Hint hint;
     if (!object && fluent.range.kind == Kind::Object)
-        hint = suggestion_or_list(context, symbol.name, name_of_symbol(symbol, span), context.type(fluent.range.type).objects);
+        hint = suggestion_or_list(context, symbol.name, name_of_symbol(symbol, span),
+                                  context.type(fluent.range.type).objects);
     else if (!object)
         hint = hint_for_bool(symbol.name, span);
     report_value(code, span, fluent, found, std::move(hint), context);
@@ -255,15 +256,16 @@ class Assigner {
         const std::string found =
             object ? fmt::format("'{}' is of type '{}'", name, context_.type(object->type).name)
                    : fmt::format("there is no object '{}'", name);
-        context_.report(diagnose(wrong_grounding, assignment.argument_spans[i],
-                                 fmt::format("argument {} of '{}' is of type '{}', but {}", i + 1,
-                                             fluent.name, expected.name, found))
-                            .note(fluent.span, "declared here")
-                            .with_hint(object ? Hint{}
-                                              : suggestion(context_, name,
-                                                           name_of_symbol(assignment.arguments[i],
-                                                                          assignment.argument_spans[i]),
-                                                           [&] { return expected.objects; })));
+        context_.report(
+            diagnose(wrong_grounding, assignment.argument_spans[i],
+                     fmt::format("argument {} of '{}' is of type '{}', but {}", i + 1, fluent.name,
+                                 expected.name, found))
+                .note(fluent.span, "declared here")
+                .with_hint(object ? Hint{}
+                                  : suggestion(context_, name,
+                                               name_of_symbol(assignment.arguments[i],
+                                                              assignment.argument_spans[i]),
+                                               [&] { return expected.objects; })));
     }
 
     std::optional<model::Value> value_assigned(const ast::Assignment& assignment,

@@ -75,8 +75,9 @@ void set_attribute(const Conversion& conversion, Parser::AttributeContext& conte
                 {attribute_hint(kind), {{with_comma_before(conversion, context), ""}}}));
     else if (slot)
         conversion.diagnostics.report(
-            Diagnostic{wrong_attribute, span, fmt::format("a second {}", key)}.note(
-                slot->span, "first given here").fixed_by(with_comma_before(conversion, context), ""));
+            Diagnostic{wrong_attribute, span, fmt::format("a second {}", key)}
+                .note(slot->span, "first given here")
+                .fixed_by(with_comma_before(conversion, context), ""));
     else
         slot = to_constant(conversion, *context.constant());
 }

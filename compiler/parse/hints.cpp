@@ -111,9 +111,8 @@ Hint binder_form(const SyntaxError& error) {
     const bool lacks_underscore = name == error.before(1) && is(&error.found(), Parser::OPEN_CURLY);
     return {fmt::format("write the variables and their types as in {}_{{?x : type}} ...",
                         name->getText()),
-            lacks_underscore
-                ? std::vector<Replacement>{{point_before(place_of_found(error)), "_"}}
-                : std::vector<Replacement>{}};
+            lacks_underscore ? std::vector<Replacement>{{point_before(place_of_found(error)), "_"}}
+                             : std::vector<Replacement>{}};
 }
 
 Hint single_or_double_equals(const SyntaxError& error) {
@@ -159,8 +158,8 @@ std::vector<Replacement> parentheses_around_condition(const SyntaxError& error) 
     std::size_t end = error.index;
     static const TokenTypes ends = {Parser::THEN, Parser::ELSE, Parser::SEMICOLON, Parser::IF};
     while (end < error.tokens.size() && !ends.contains(error.tokens[end]->getType())) ++end;
-    if (begin == 0 || end <= begin || !is(error.tokens[std::min(end, error.tokens.size() - 1)],
-                                          Parser::THEN))
+    if (begin == 0 || end <= begin ||
+        !is(error.tokens[std::min(end, error.tokens.size() - 1)], Parser::THEN))
         return {};
     return {{point_before(place_of(error, *error.tokens[begin])), "("},
             {point_behind(place_of(error, *error.tokens[end - 1])), ")"}};

@@ -135,10 +135,10 @@ class Repair {
         if (standard_ == Standard::Rddlc) return true;
         const auto fixed = without_exponent(text(token));
         report(foreign_number, token, "RDDL numbers have no exponent",
-               hint_to_write(fmt::format("write all digits{}; {}",
-                                         fixed ? ": " + *fixed : ", or use pow[10, n]",
-                                         extension_hint),
-                             fixed.value_or(""), span_of(file_, token)));
+               hint_to_write(
+                   fmt::format("write all digits{}; {}",
+                               fixed ? ": " + *fixed : ", or use pow[10, n]", extension_hint),
+                   fixed.value_or(""), span_of(file_, token)));
         return true;
     }
 

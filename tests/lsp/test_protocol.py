@@ -5,7 +5,6 @@
 
 import json
 import signal
-import time
 import unittest
 
 from client import Failed, covered, position
@@ -160,16 +159,23 @@ class Speed(Test):
         times = {}
         for number in range(5):
             text = text.replace("// the end", f"// the end {number}")
-            begin = time.perf_counter()
+            begin = self.seconds_of_main_thread(client)
             client.change("domain.rddl", text)
             for method in ["hover", "completion", "definition", "references", "documentHighlight"]:
                 client.ask(method, "domain.rddl", "p800'(?x)")
-                times.setdefault(method, []).append(time.perf_counter() - begin)
-                begin = time.perf_counter()
-        # The limit is 50 ms; a busy machine may take longer now and then.
-        slow = {method: sorted(found)[len(found) // 2] for method, found in times.items() if sorted(found)[len(found) // 2] > 0.2}
-        self.assertEqual(slow, {})
-        print({method: f"{1000 * sorted(found)[len(found) // 2]:.1f} ms" for method, found in times.items()})
+                end = self.seconds_of_main_thread(client)
+                times.setdefault(method, []).append(1000 * (end - begin))
+                begin = end
+        medians = {method: round(sorted(found)[len(found) // 2], 1) for method, found in times.items()}
+        print("ms of processor time, the edit included in the first:", medians)
+        self.assertEqual({method: took for method, took in medians.items() if took > 50}, {})
+
+    @staticmethod
+    def seconds_of_main_thread(client):
+        """Processor time: that a machine is busy does not count. The checks run in another thread."""
+        number = client.process.pid
+        with open(f"/proc/{number}/task/{number}/schedstat", encoding="ascii") as file:
+            return int(file.read().split()[0]) / 1e9
 
 
 if __name__ == "__main__":

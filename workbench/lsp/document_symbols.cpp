@@ -33,26 +33,13 @@ Json of(const File& file, const Section& section) {
     return json;
 }
 
-std::string_view word_for(Meaning kind) {
-    switch (kind) {
-        case Meaning::Domain:
-            return "domain";
-        case Meaning::NonFluents:
-            return "non-fluents";
-        case Meaning::Instance:
-            return "instance";
-        default:
-            return "policy";
-    }
-}
-
 }  // namespace
 
 Json document_symbols(const File& file) {
     Json all = Json::array();
     for (const Block& block : file.outline.blocks) {
         const std::string name =
-            std::string(word_for(block.kind)) + " " + std::string(block.name.text);
+            std::string(block.keyword.text) + " " + std::string(block.name.text);
         Json json = symbol(file, name, of_block, block.whole, block.name.place);
         for (const Section& section : block.sections) json["children"].push_back(of(file, section));
         all.push_back(std::move(json));

@@ -1,5 +1,6 @@
 #include "lsp/capabilities.hpp"
 #include "lsp/reference.hpp"
+#include "lsp/words.hpp"
 
 #include <fmt/format.h>
 

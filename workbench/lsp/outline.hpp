@@ -80,6 +80,7 @@ struct Section {
 
 struct Block {
     Meaning kind;  // Domain, NonFluents, Instance or Policy
+    Name keyword;
     Name name;
     Place whole;
     std::vector<Section> sections;
@@ -102,10 +103,5 @@ struct Outline {
 };
 
 Outline outline_of(std::string_view text);
-
-// "'p" is no word: a letter first, then also digits, '-' and '_', a letter or digit last.
-bool is_name(std::string_view word);
-// Whether RDDL's grammar reserves the word: no name may be one.
-bool is_reserved(std::string_view word);
 
 }  // namespace rddlc::lsp

@@ -61,7 +61,7 @@ bool OutlineReader::begins_section(std::size_t at) const {
 }
 
 std::size_t OutlineReader::read_block(std::size_t at) {
-    Block block{*block_named(word(at)), name(at + 1), {}, {}, {}, {}};
+    Block block{*block_named(word(at)), name(at), name(at + 1), {}, {}, {}, {}};
     note(block.kind, at + 1, true);
     std::size_t next = at + 2;
     if (word(next) == "{") ++next;

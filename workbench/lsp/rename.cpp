@@ -1,4 +1,5 @@
 #include "lsp/capabilities.hpp"
+#include "lsp/words.hpp"
 
 #include <fmt/format.h>
 
