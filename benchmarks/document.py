@@ -1,11 +1,12 @@
-"""The measured figures in docs/benchmarks.md: each benchmark owns one section between markers."""
+"""The measured figures in docs/benchmarks.md and docs/results/benchmarks.md: each benchmark owns its sections, between
+markers."""
 
 import os
 import platform
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[1]
-DOCUMENT = ROOT / "docs/benchmarks.md"
+DOCUMENTS = ROOT / "docs/benchmarks.md", ROOT / "docs/results/benchmarks.md"
 
 
 def machine_text() -> str:
@@ -26,10 +27,10 @@ def markdown_table(rows: list[tuple[str, ...]]) -> str:
 
 
 def write_section(name: str, text: str) -> None:
-    """Replaces what stands between `<!-- begin of NAME -->` and `<!-- end of NAME -->`."""
+    """Replaces the text between `<!-- begin of NAME -->` and `<!-- end of NAME -->`, in the document that has them."""
     begin, end = f"<!-- begin of {name} -->", f"<!-- end of {name} -->"
-    document = DOCUMENT.read_text()
-    before, rest = document.split(begin)
+    (document,) = (each for each in DOCUMENTS if begin in each.read_text())
+    before, rest = document.read_text().split(begin)
     after = rest.split(end)[1]
-    DOCUMENT.write_text(f"{before}{begin}\n\n{text}\n\n{end}{after}")
-    print(f"written: {name} in {DOCUMENT}")
+    document.write_text(f"{before}{begin}\n\n{text}\n\n{end}{after}")
+    print(f"written: {name} in {document}")

@@ -2,13 +2,13 @@
 // They are collected per stage and printed in one place (render.hpp).
 #pragma once
 
+#include "support/source.hpp"
+
 #include <optional>
 #include <set>
 #include <string>
 #include <utility>
 #include <vector>
-
-#include "support/source.hpp"
 
 namespace rddlc {
 
@@ -35,7 +35,7 @@ struct Replacement {
     std::string text;
 };
 
-// What to try after a diagnostic.
+// An advice on what to try after a diagnostic.
 struct Hint {
     Hint(std::string words = {}, std::vector<Replacement> changes = {})
         : text(std::move(words)), fix(std::move(changes)) {}
@@ -51,7 +51,7 @@ struct Diagnostic {
     std::optional<Span> span;  // absent for what has no place, such as a missing file
     std::string message;       // lower case, no full stop, names in single quotes
     std::vector<Note> notes = {};
-    std::string hint = {};     // what to try, a whole clause; may be empty
+    std::string hint = {};              // what to try, a whole clause; may be empty
     std::vector<Replacement> fix = {};  // as in Hint; may be there without a hint in words
 
     // Chaining, so that a report reads as one sentence.
@@ -61,10 +61,10 @@ struct Diagnostic {
 };
 
 struct DiagnosticOptions {
-    std::set<Code> disabled_warnings;  // -Wno-W0210
+    std::set<Code> disabled_warnings;    // -Wno-W0210
     bool all_warnings_disabled = false;  // -w
-    bool warnings_as_errors = false;   // -Werror
-    std::set<Code> codes_as_errors;    // -Werror=W0210
+    bool warnings_as_errors = false;     // -Werror
+    std::set<Code> codes_as_errors;      // -Werror=W0210
 };
 
 class Diagnostics {

@@ -32,7 +32,7 @@ inline Span point_before(Span span) {
 inline Span point_behind(Span span) {
     return {span.file, span.end, span.end};
 }
-// Of a span that is not empty.
+// The span must not be empty.
 inline Span last_character(Span span) {
     return {span.file, span.end - 1, span.end};
 }

@@ -27,9 +27,11 @@ enum class OptionKind {
 
 struct Option {
     OptionKind kind = OptionKind::Value;
-    std::string names;       // "-o,--output", or that of an argument: "DOMAIN"
-    std::string value_name;  // "FILE"; empty for flags and arguments
-    std::string explanation;
+    std::string names;        // "-o,--output", or that of an argument: "DOMAIN"
+    std::string value_name;   // "FILE"; empty for flags and arguments
+    std::string explanation;  // begins with a noun or a verb
+    // Where --help begins a new part of the list of options: "Pictures".
+    std::string title = {};
     // Is called with each value, in the order of the options; may throw a UsageError.
     std::function<void(const std::string& value)> take;
     std::vector<std::string> choices;      // the only values; empty: any
@@ -72,6 +74,10 @@ std::vector<Option> common_options(bool is_program);
 
 // "-o" and "--output" of "-o,--output".
 std::vector<std::string> names_of(const Option& option);
+
+// Gives a title to the option of this name: --help lists under it the options from this one on, up
+// to the next one with a title. A name that the command does not have is a std::logic_error.
+void add_title(Command& command, const std::string& name, const std::string& title);
 
 // Adders of the usual kinds. The returned option may be adjusted until the next one is added.
 Option& add_argument(Command& command, const std::string& name, const std::string& explanation,

@@ -66,12 +66,22 @@ std::string arguments_text(const Command& command) {
     return text.empty() ? text : "\nArguments:\n" + text;
 }
 
+// The options that every command has come last: among the others, or below a title of their own.
 std::string options_text(const Command& command, bool is_program) {
-    std::string text = "\nOptions:\n";
+    std::vector<Option> listed;
     for (const Option& option : command.options)
-        if (option.kind != OptionKind::Argument) text += entry(name_of(option), option.explanation);
-    for (const Option& option : common_options(is_program))
+        if (option.kind != OptionKind::Argument) listed.push_back(option);
+    const bool has_titles = std::any_of(listed.begin(), listed.end(),
+                                        [](const Option& option) { return !option.title.empty(); });
+    std::vector<Option> common = common_options(is_program);
+    if (has_titles) common.front().title = "Other options";
+    listed.insert(listed.end(), common.begin(), common.end());
+    if (listed.front().title.empty()) listed.front().title = "Options";
+    std::string text;
+    for (const Option& option : listed) {
+        if (!option.title.empty()) text += "\n" + option.title + ":\n";
         text += entry(name_of(option), option.explanation);
+    }
     return text;
 }
 

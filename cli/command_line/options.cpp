@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <sstream>
+#include <stdexcept>
 #include <utility>
 
 namespace rddlc::cli {
@@ -43,6 +44,16 @@ std::vector<Option> common_options(bool is_program) {
         .choices = {"bash", "zsh", "fish"};
     add_flag(command, "--man-page", "Print the manual page", nothing);
     return command.options;
+}
+
+void add_title(Command& command, const std::string& name, const std::string& title) {
+    for (Option& option : command.options)
+        for (const std::string& each : names_of(option))
+            if (each == name) {
+                option.title = title;
+                return;
+            }
+    throw std::logic_error("there is no option " + name + " to stand below '" + title + "'");
 }
 
 Option& add_argument(Command& command, const std::string& name, const std::string& explanation,

@@ -20,7 +20,7 @@ struct ReductionNest {
 };
 
 // Takes a node apart, down to the first body that is no reduction by the same operator over a whole
-// range, or that `enters` refuses. Nothing if the node itself is none.
+// range, or that `enters` refuses. Nothing if the node itself is not one.
 std::optional<ReductionNest> reduction_nest(
     const Program& program, NodeId id, const std::function<bool(const Reduce&)>& enters = nullptr);
 

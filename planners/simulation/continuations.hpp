@@ -18,7 +18,7 @@ namespace rddlc::planners {
 struct Start {
     const std::byte* state;   // NULL: that of the decision
     std::int64_t step;        // of the episode, of that state
-    const std::byte* action;  // the first one; NULL: the policy's, too
+    const std::byte* action;  // the first one; NULL: also the policy's
     std::int64_t depth;       // steps, at least 1
     std::uint64_t stream;
 };

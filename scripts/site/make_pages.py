@@ -24,8 +24,7 @@ INDEX = DOCS / "README.md"
 # Pages outside docs/, and the index, under the names that they have in the site.
 PLACES = {"README.md": "index.md", "docs/README.md": "pages.md", "CONTRIBUTING.md": "contributing.md",
           "CHANGELOG.md": "changelog.md", "examples/README.md": "examples.md", "editors/README.md": "editors.md",
-          "docs/diagnostics": "diagnostics/index.md", "docs/decisions": "decisions/index.md",
-          "docs/results": "results/index.md"}
+          "docs/diagnostics": "diagnostics/index.md"}
 LANGUAGES = {".cpp": "c++", ".hpp": "c++", ".h": "c++", ".py": "python", ".sh": "sh", ".json": "json", ".cmake": "cmake"}
 
 LINK = re.compile(r"(`[^`\n]+`)|(\]\()([^)\s]+)(\))")

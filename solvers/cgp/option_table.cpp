@@ -64,11 +64,12 @@ OptionTable<O> make_table() {
             {"--constants", "constants", "N", "Constants (4)"},
             [](auto& o) -> auto& { return o.constants; }, 0, 1 << 10),
         int_option(
-            {"--levels-back", "levels_back", "N", "How far back a node reads; 0 (default): all"},
+            {"--levels-back", "levels_back", "N",
+             "Nodes back from which a node reads; 0 (default): all"},
             [](auto& o) -> auto& { return o.levels_back; }, 0, 1 << 20),
         choice_option<O, Mutation>(
             {"--mutation", "mutation", "HOW",
-             "single (default): until one gene that counts is another; gene: each with a "
+             "Mutation: single (default): until one gene that counts is another; gene: each with a "
              "probability"},
             [](auto& o) -> auto& { return o.mutation; },
             {{"single", Mutation::Single}, {"gene", Mutation::Gene}}),
@@ -102,17 +103,17 @@ OptionTable<O> make_table() {
             {{"auto", Lifting::Auto}, {"on", Lifting::On}, {"off", Lifting::Off}}),
         switch_option<O>(
             {"--parsimony", "parsimony", "WHEN",
-             "Whether the smaller of equally good programs wins: on "
+             "Prefer the smaller of equally good programs: on "
              "(default), off"},
             [](auto& o) -> auto& { return o.parsimony; }),
         switch_option<O>(
-            {"--time-input", "time", "", "Programs read the elapsed part of the episode"},
+            {"--time-input", "time", "", "Let programs read the elapsed part of the episode"},
             [](auto& o) -> auto& { return o.time; }),
-        choice_option<O, bool>({"--compat", "compat", "WHOSE",
-                                "skdecide: search for programs in scikit-decide's form, with its "
-                                "functions and its mutation; none (default)"},
-                               [](auto& o) -> auto& { return o.skdecide; },
-                               {{"none", false}, {"skdecide", true}}),
+        choice_option<O, bool>(
+            {"--compat", "compat", "WHOSE",
+             "Compatibility: skdecide: search for programs in scikit-decide's form, with its "
+             "functions and its mutation; none (default)"},
+            [](auto& o) -> auto& { return o.skdecide; }, {{"none", false}, {"skdecide", true}}),
         int_option(
             {"--islands", "islands", "N", "Populations (1, or one on each rank of MPI)", {}, false},
             [](auto& o) -> auto& { return o.islands; }, 1, 1 << 12),

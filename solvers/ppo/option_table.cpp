@@ -12,16 +12,17 @@ using Time = ObservationOptions::Time;
 
 // The names of the presets stand for the values that only they change.
 Option preset_option() {
-    Option option{{"--preset",
-                   "preset",
-                   "PRESET",
-                   "fast (default), sb3 (as Stable-Baselines3), rllib; later options override it",
-                   {},
-                   true,
-                   false,
-                   {"fast", "sb3", "rllib"}},
-                  {},
-                  {}};
+    Option option{
+        {"--preset",
+         "preset",
+         "PRESET",
+         "Settings: fast (default), sb3 (as Stable-Baselines3), rllib; later options override it",
+         {},
+         true,
+         false,
+         {"fast", "sb3", "rllib"}},
+        {},
+        {}};
     option.set = [](O& o, const std::vector<std::string>& words) {
         const auto known = preset(words.front());
         if (!known)
@@ -120,13 +121,14 @@ OptionTable<O> make_table() {
         positive_option<O>(
             {"--lr", "learning_rate", "RATE", "Learning rate (3e-4)"},
             [](auto& o) -> auto& { return o.learning_rate; }, 10),
-        choice_option<O, LearningRate>({"--lr-schedule", "schedule", "HOW",
-                                        "linear (default): down to 0; constant; kl: adapts so "
-                                        "that the policy moves evenly"},
-                                       [](auto& o) -> auto& { return o.schedule; },
-                                       {{"linear", LearningRate::Linear},
-                                        {"constant", LearningRate::Constant},
-                                        {"kl", LearningRate::Kl}}),
+        choice_option<O, LearningRate>(
+            {"--lr-schedule", "schedule", "HOW",
+             "Learning rate over time: linear (default): down to 0; constant; kl: adapts so "
+             "that the policy moves evenly"},
+            [](auto& o) -> auto& { return o.schedule; },
+            {{"linear", LearningRate::Linear},
+             {"constant", LearningRate::Constant},
+             {"kl", LearningRate::Kl}}),
         real_option(
             {"--gamma",
              "gamma",
@@ -178,7 +180,7 @@ OptionTable<O> make_table() {
             [](auto& o) -> auto& { return o.gradient_norm; }, 0, 1e9),
         real_option(
             {"--target-kl", "target_kl", "D",
-             "An update ends when the policy has moved by 1.5 times this KL divergence; "
+             "End an update when the policy has moved by 1.5 times this KL divergence; "
              "0 (default): never"},
             [](auto& o) -> auto& { return o.kl_stop; }, 0, 1e9),
         choice_option<O, Noise>(
@@ -213,8 +215,7 @@ OptionTable<O> make_table() {
             {"--squash",
              "squash",
              "WHEN",
-             "Whether reals with two bounds are tanh of a normal number (on), or "
-             "clipped to their bounds (off, default)",
+             "Bound reals by tanh of a normal number (on), or by clipping (off, default)",
              {"squash_output"}},
             [](auto& o) -> auto& { return o.squashes; }),
         switch_option<O>(
@@ -251,12 +252,12 @@ OptionTable<O> make_table() {
             [](auto& o) -> auto& { return o.segment; }, 2, 1 << 20),
         choice_option<O, Time>(
             {"--time-input", "time_input", "WHEN",
-             "Whether the policy sees the time: auto (default: horizons up to 200), on, off"},
+             "Show the time to the policy: auto (default: horizons up to 200), on, off"},
             [](auto& o) -> auto& { return o.observations.time; },
             {{"auto", Time::Auto}, {"on", Time::On}, {"off", Time::Off}}),
         choice_option<O, std::optional<bool>>(
             {"--bootstrap", "bootstrap", "WHEN",
-             "Whether the value after the horizon is estimated: auto (default: unless the policy "
+             "Estimate the value after the horizon: auto (default: unless the policy "
              "sees "
              "the time), on, off"},
             [](auto& o) -> auto& { return o.bootstraps; },

@@ -1,5 +1,5 @@
-// Returns of policies that have learned nothing, no-op and random: a learned one has to exceed
-// them.
+// The return of policies that have learned nothing: no-op and random. A learned policy has to
+// exceed it.
 #pragma once
 
 #include "solvers/evaluation/episodes.hpp"

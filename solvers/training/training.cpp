@@ -81,7 +81,7 @@ class Training {
     }
 
   private:
-    // The policy that it has before the first update counts as its first one.
+    // The policy learned before the first update counts as its first policy.
     void prepare() {
         const std::string said = trainee_.prepare();
         if (options_.stops && options_.stops())

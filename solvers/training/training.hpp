@@ -30,7 +30,7 @@ struct Trainee {
     Settings settings;        // a resumed run has the same
     std::string note;         // what it has chosen that users may not expect, or ""
     bool ends_early = false;  // update() does where TrainingOptions::stops says so
-    // Called first in a new run; returns a sentence about it. May be empty.
+    // The first work of a new run. Returns a message about it; may be empty.
     std::function<std::string()> prepare = {};
     std::function<void()> update;         // a little more work
     std::function<bool()> done;           // all that was asked for

@@ -271,12 +271,12 @@ class Document(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             page = Path(folder) / "page.md"
             page.write_text("a\n<!-- begin of x -->\nold\n<!-- end of x -->\nb\n")
-            with patch.object(document, "DOCUMENT", page), contextlib.redirect_stdout(io.StringIO()):
+            with patch.object(document, "DOCUMENTS", [page]), contextlib.redirect_stdout(io.StringIO()):
                 document.write_section("x", "new")
             self.assertEqual(page.read_text(), "a\n<!-- begin of x -->\n\nnew\n\n<!-- end of x -->\nb\n")
 
-    def test_sections_of_the_page_exist(self):
-        text = document.DOCUMENT.read_text()
+    def test_sections_of_the_pages_exist(self):
+        text = "".join(page.read_text() for page in document.DOCUMENTS)
         for name in ("comparison", "comparison by problem", "jax", "jax by problem", "handwritten", "growth", "compile cost"):
             self.assertEqual(text.count(f"<!-- begin of {name} -->"), 1, name)
             self.assertEqual(text.count(f"<!-- end of {name} -->"), 1, name)

@@ -1,10 +1,10 @@
-"""The table of a run, for the terminal and for docs/conformance.md."""
+"""The table of a run, for the terminal and for docs/results/conformance.md."""
 
 from importlib.metadata import version
 
 from problems import ROOT
 
-DOCUMENT = ROOT / "docs/conformance.md"
+DOCUMENT = ROOT / "docs/results/conformance.md"
 BEGIN, END = "<!-- begin of the table -->", "<!-- end of the table -->"
 MOST_FAILURES = 8
 

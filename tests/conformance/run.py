@@ -3,7 +3,7 @@
     .venv/bin/python tests/conformance/run.py                          the problems of every test run
     .venv/bin/python tests/conformance/run.py --all                    all of rddlrepository
     .venv/bin/python tests/conformance/run.py Wildfire_MDP_ippc2014    some problems
-    .venv/bin/python tests/conformance/run.py --write                  and docs/conformance.md
+    .venv/bin/python tests/conformance/run.py --write                  and docs/results/conformance.md
     .venv/bin/python tests/conformance/run.py --all --without-each     with each optimisation left out
 
 docs/conformance.md says what is compared and how. Exit status: 0 if all agree, else 1.
@@ -191,7 +191,7 @@ def parse_arguments() -> argparse.Namespace:
         "--cache", type=Path, default=ROOT / "build/conformance", help="recordings of the reference"
     )
     parser.add_argument(
-        "--write", action="store_true", help="write the table into docs/conformance.md"
+        "--write", action="store_true", help="write the table into docs/results/conformance.md"
     )
     options = parser.parse_args()
     options.engine = tuple(options.engine or ENGINES)

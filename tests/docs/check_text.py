@@ -140,7 +140,7 @@ def complaints_about_the_index() -> list[str]:
     index = ROOT / "docs/README.md"
     listed = {(index.parent / target.partition("#")[0]).resolve() for target in LINK.findall(index.read_text())}
     return [f"docs/README.md: there is no row for {page.relative_to(ROOT)}"
-            for page in pages() if page.parent == index.parent and page not in listed | {index}]
+            for page in pages() if page.is_relative_to(index.parent) and page not in listed | {index}]
 
 
 def main() -> int:

@@ -52,7 +52,8 @@ class Exchange:
 
 def pages() -> list[Path]:
     others = ["README.md", "CONTRIBUTING.md", "examples/README.md", "editors/README.md"]
-    return [*(ROOT / name for name in others), *sorted((ROOT / "docs").glob("*.md"))]
+    return [*(ROOT / name for name in others), *sorted((ROOT / "docs").glob("*.md")),
+            *sorted((ROOT / "docs/results").glob("*.md"))]
 
 
 def pages_of_diagnostics() -> list[Path]:

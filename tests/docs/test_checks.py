@@ -6,6 +6,7 @@ import tempfile
 import unittest
 from pathlib import Path
 
+import check_english
 import check_text
 import run_pages
 from comparison import agree
@@ -115,6 +116,22 @@ class Text(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             page = page_of("# A title: with `code` & more\n\n## [Link](x.md)\n", folder)
             self.assertEqual(check_text.anchors(page), {"a-title-with-code--more", "link"})
+
+
+class English(unittest.TestCase):
+    def habits(self, name: str, text: str) -> list[str]:
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder) / name
+            path.write_text(text)
+            return [habit for habit, _ in check_english.complaints(path)]
+
+    def test_habits_are_found_in_pages(self):
+        self.assertEqual(self.habits("a.md", "Whoever does it, nobody sees it.\n\nA tree, too.\n"), ["Whoever", "nobody", ", too"])
+        self.assertEqual(self.habits("a.md", "There is none. It is `is none`, too small.\n\n```text\nnobody\n```\n"), [])
+
+    def test_fragments_are_found_where_comments_begin(self):
+        self.assertEqual(self.habits("a.cpp", "// Of a table.\nint a;  // What it is\n"), ["Of", "What"])
+        self.assertEqual(self.habits("a.cpp", "// The size\n// Of a table. What is it?\nint a = b(\"// nobody\");\n"), [])
 
 
 if __name__ == "__main__":

@@ -1,4 +1,4 @@
-// What all planners have in common: names, options, budgets, stream of their own.
+// Properties of all planners: names, options, budgets, stream of their own.
 #include "planning.hpp"
 
 #include <gtest/gtest.h>
@@ -54,7 +54,7 @@ struct Page {
     }
 };
 
-// What people see of an option is there, on the page of the documentation, too.
+// Each option has a text for people, also on the page of the documentation.
 TEST(PlannerNames, TablesAreComplete) {
     const Page page;
     for (const PlannerText& planner : planner_texts()) {

@@ -54,7 +54,7 @@ inline PolicySettings settings_of(const rddl_simulator& simulator) {
     return settings;
 }
 
-// Of episodes 0, 1, ... of the seed.
+// The course of episodes 0, 1, ... of the seed.
 struct Played {
     std::vector<solvers::Episode> episodes;
     solvers::Summary summary;

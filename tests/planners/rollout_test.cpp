@@ -7,7 +7,8 @@
 namespace rddlc::planners {
 namespace {
 
-// Of no-op, which stays: to stay is worth 1 + 1 + 1 + 1, to climb (2 + 2 + 2)/2, to leap 8/4.
+// The policy is no-op, which stays: to stay is worth 1 + 1 + 1 + 1, to climb (2 + 2 + 2)/2, to leap
+// 8/4.
 TEST(Rollouts, ValueActionsByThePolicyThatPlaysOn) {
     const Played plan = run(ladder(), "plan:rollout,policy=noop,iterations=200");
     const Explanation& explanation = plan.thought(0, 0);

@@ -48,9 +48,25 @@ def inner_commands(command: str) -> list[str]:
 
 def options(*words) -> set[str]:
     """The names of the options that --help lists."""
-    part = output(BIN / words[0], *words[1:], "--help").split("\nOptions:\n")[1].split("\n\n")[0]
-    names = re.findall(r"^  (-[^\s,]+(?:, -[^\s,]+)*)", part, re.M)
+    text = output(BIN / words[0], *words[1:], "--help").split("\nExamples:\n")[0]
+    names = re.findall(r"^  (-[^\s,]+(?:, -[^\s,]+)*)", text, re.M)
     return {name for group in names for name in group.split(", ")}
+
+
+class Help(unittest.TestCase):
+    def test_long_lists_have_parts(self):
+        for words in ("run", ), ("train", "ppo"), ("train", "cgp"):
+            text = output(BIN / "rddl", *words, "--help")
+            titles = re.findall(r"^(\S[^:]*):$", text, re.M)
+            self.assertLessEqual({"Problem", "Engine", "Other options"}, set(titles), words)
+            for part in text.split("\n\n"):
+                self.assertLess(len(re.findall(r"^  --", part, re.M)), 17, f"{words}: {part}")
+
+    def test_explanations_begin_with_a_noun_or_a_verb(self):
+        for words in ("run", ), ("train", "ppo"), ("train", "cgp"):
+            text = output(BIN / "rddl", *words, "--help").split("\nExamples:\n")[0]
+            for explanation in re.findall(r"^  -\S.*?(?:\n {20,}| {2,})(\S.*)$", text, re.M):
+                self.assertNotRegex(explanation, r"^(Whether|How|What|The same|\w+ \(default\)|[A-Z] )", words)
 
 
 class Shell(unittest.TestCase):

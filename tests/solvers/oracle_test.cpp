@@ -47,7 +47,8 @@ const GruFunctions<Real>& functions_of_grus() {
         return in_double::gru_functions_of<double>;
 }
 
-// Of sums of some hundred terms, and of the networks' own tanh, which is exact to a few digits.
+// The tolerance of sums of some hundred terms, and of the networks' own tanh, which is exact to a
+// few digits.
 template <class Real>
 double tolerance(const Matrix& expected) {
     const double greatest = std::max(1.0, expected.cwiseAbs().maxCoeff());
@@ -287,7 +288,7 @@ void compare(const Gru& gru, const std::vector<int>& counts,
     const Matrix initial = random_matrix(counts[0], units, random, 0.5);
     const Matrix d_after = random_matrix(rows, units, random);
 
-    // What Eigen makes of it.
+    // The result of Eigen.
     std::vector<DenseGru::Step> steps;
     Matrix h = initial, states(rows, units);
     for (int t = 0, first = 0; t < static_cast<int>(counts.size()); first += counts[t++]) {

@@ -87,7 +87,7 @@ LoadedProblem interpreted(Compilation compilation, const ProblemFiles& files,
             LoadCosts{}};
 }
 
-// What emit_compilation uses of one that stopped before.
+// The parts that emit_compilation uses of one that stopped before.
 Compilation copy_to_emit(const Compilation& optimised) {
     Compilation copy({});
     copy.sources = optimised.sources;

@@ -60,7 +60,7 @@ struct LoadedProblem {
     LoadCosts costs;
     UsedFiles used = {};  // all that was read for it
     bool is_compiled = false;
-    // Of Engine::Auto, unless the simulator is compiled already.
+    // The build of Engine::Auto, unless the simulator is compiled already.
     std::shared_ptr<BackgroundBuild> background = {};
 };
 

@@ -14,7 +14,7 @@
 
 namespace rddlc::workbench {
 
-// What commands say of planners.
+// Settings of planners from the command line.
 struct PlannerSettings {
     bool cheat = false;        // they see the state of problems that hide it
     std::string explanations;  // a file for what decisions were made by; "": none

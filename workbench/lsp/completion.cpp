@@ -1,5 +1,5 @@
-// What may stand at the cursor: by the block, the section and the words before it, so that the text
-// need not be whole.
+// The words that may stand at the cursor: by the block, the section and the words before it, so
+// that the text need not be whole.
 #include "lsp/capabilities.hpp"
 #include "lsp/completion_place.hpp"
 #include "lsp/reference.hpp"
@@ -206,7 +206,7 @@ class Completion {
         }
     }
 
-    // Those without a CPF first.
+    // Fluents without a CPF come first.
     void add_definitions() {
         for (const FluentSite& site : lookup_.fluents()) {
             const FluentDeclaration& fluent = *site.declaration;

@@ -1,5 +1,5 @@
-// What a text declares and mentions, whole or broken: found by its words and brackets alone, so
-// that it is there while somebody types. It says nothing of mistakes; the compiler does.
+// The names that a text declares and mentions, whole or broken: found by its words and brackets
+// alone, so that it is there while somebody types. It says nothing of mistakes; the compiler does.
 #pragma once
 
 #include "format/comments.hpp"

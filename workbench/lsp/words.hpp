@@ -8,7 +8,7 @@ namespace rddlc::lsp {
 // A letter first, then also digits, '-' and '_', a letter or digit last; reserved words are also
 // names.
 bool is_name(std::string_view word);
-// Of RDDL's grammar: no fluent, type or object may be called so.
+// Words of RDDL's grammar: no fluent, type or object may be called so.
 bool is_reserved(std::string_view word);
 
 }  // namespace rddlc::lsp

@@ -121,7 +121,7 @@ void ProtocolServer::answer_all(Client& client) {
     }
 }
 
-// Both sides are told the reason.
+// Both sides are told what is wrong.
 void ProtocolServer::refuse(Client& client, const std::string& why) {
     if (options_.tell) options_.tell(fmt::format("{}: {}", client.name, why));
     client.output += tagged("error", why) + '\0';

@@ -152,7 +152,7 @@ void hint_at_chance(const Evaluation& one) {
             one.policy, number_text(*learned));
 }
 
-// That of the horizon in which policies are evaluated.
+// The optimum of the horizon in which policies are evaluated.
 std::optional<KnownOptimum> optimum_of(const ProblemFiles& files, const rddl_simulator& simulator,
                                        const EvaluationOptions& options) {
     if (options.optimum.empty()) return std::nullopt;
@@ -232,7 +232,7 @@ void add_common_options(Command& command, EvaluationOptions& options) {
     add_flag(command, "--json", "Print the results as JSON", options.json);
 }
 
-// Options of a planner have commas between them, too: key=value belongs to the planner before it.
+// Options of a planner also have commas between them: key=value belongs to the planner before it.
 void add_policy(std::vector<std::string>& policies, const std::string& word) {
     const std::size_t sign = word.find('=');
     const bool is_option =

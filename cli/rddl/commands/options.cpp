@@ -75,7 +75,8 @@ void add_cache_option(Command& command, LoadOptions& options) {
 
 void add_engine_options(Command& command, LoadOptions& options) {
     add_option(command, "--engine", "ENGINE",
-               "auto (default) starts with the interpreter and changes to the compiled engine when "
+               "Engine: auto (default) starts with the interpreter and changes to the compiled "
+               "engine when "
                "that is ready; compiled waits for it; interpreter needs no C++ compiler",
                [&options](const std::string& name) { options.engine = *engine_named(name); })
         .choices = {"auto", "compiled", "interpreter"};
@@ -127,7 +128,7 @@ void choose_policy(const std::string& name, Policy& policy,
 }  // namespace
 
 void add_planner_options(Command& command, PlannerSettings& planning) {
-    add_flag(command, "--cheat", "Planners see the state of problems that are observed in part",
+    add_flag(command, "--cheat", "Let planners see the state of problems that are observed in part",
              planning.cheat);
     add_text_option(command, "--explain-decisions", "FILE",
                     "Write what planners' decisions were made by, a line of JSON each; - is stdout",
@@ -138,8 +139,9 @@ void add_policy_option(Command& command, Policy& policy, std::optional<std::file
                        RolloutOptions* rollouts) {
     add_option(
         command, "--policy", "POLICY",
-        std::string("random (default): legal random actions; noop: default actions; rddl: the "
-                    "policy block of the problem; FILE: the policy block in it") +
+        std::string(
+            "Policy: random (default): legal random actions; noop: default actions; rddl: the "
+            "policy block of the problem; FILE: the policy block in it") +
             (rollouts
                  ? ", a learned policy, or the actions of a trace (.jsonl): episode 0 "
                    "plays those of its episode 0 and so on, and after its last episode comes "
@@ -180,16 +182,18 @@ void add_picture_options(Command& command, PictureOptions& options) {
     add_text_option(command, "--gif", "FILE",
                     "Write a movie of an episode; - is stdout, here and below", options.gif);
     add_text_option(command, "--video,--mp4", "FILE",
-                    "The same as .mp4, .webm or .webp, by the program ffmpeg", options.video);
+                    "Write the movie as .mp4, .webm or .webp, by the program ffmpeg",
+                    options.video);
     add_text_option(command, "--png", "PATH",
-                    "FILE.png or -: a picture of one state; another path: a folder of all",
+                    "Write a picture of one state, FILE.png or -; another path: a folder of all",
                     options.png);
-    add_text_option(command, "--svg", "PATH", "The same as vector graphics", options.svg);
+    add_text_option(command, "--svg", "PATH", "Write vector graphics, as --png does pictures",
+                    options.svg);
     add_text_option(command, "--html", "FILE", "Write a page that replays the episode, in one file",
                     options.html);
     add_flag(command, "--watch", "Show the episode in the terminal, state by state", options.watch);
     add_text_option(command, "--visualizer", "NAME",
-                    "How states are drawn: auto, chart, heatmap, text, or that of a domain (the "
+                    "Drawing of states: auto, chart, heatmap, text, or that of a domain (the "
                     "one for the problem's domain); 'list' prints all",
                     options.visualizer);
     add_text_option(command, "--scene", "FILE.json",
@@ -198,7 +202,7 @@ void add_picture_options(Command& command, PictureOptions& options) {
     add_number_option<double>(command, "--fps", "N", "Steps a second in movies (10)",
                               options.frames_per_second, 0.01, 1000);
     add_number_option<double>(command, "--real-time-factor", "X",
-                              "X seconds of the problem in a second of the movie, where a "
+                              "Show X seconds of the problem in a second of the movie, where a "
                               "non-fluent gives the length of a step",
                               options.real_time_factor, 1e-6, 1e6);
     add_number_option<std::int64_t>(command, "--max-frames", "N",

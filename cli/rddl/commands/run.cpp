@@ -294,9 +294,14 @@ Command run_command() {
     add_engine_options(command, options->load);
     add_text_option(command, "--trace", "FILE", "Write every step as a line of JSON; - is stdout",
                     options->trace);
-    add_picture_options(command, options->pictures);
     add_flag(command, "--json", "Print the summary as JSON", options->json);
     add_flag(command, "--quiet", "Print neither progress nor summary", options->quiet);
+    add_picture_options(command, options->pictures);
+    add_title(command, "--instance", "Problem");
+    add_title(command, "--policy", "Policy and episodes");
+    add_title(command, "--engine", "Engine");
+    add_title(command, "--trace", "Output");
+    add_title(command, "--gif", "Pictures");
     command.run = [options] {
         options->load.quiet = options->quiet;
         options->pictures.quiet = options->quiet;

@@ -109,8 +109,11 @@ void add_common_options(Command& command, TrainOptions& options) {
         "Episodes of each evaluation, if anything is drawn at random (20)",
         options.training.evaluation_episodes, 1, 1'000'000);
     add_seed_option(command, options.training.seed, "Seed of all random numbers (0)");
-    add_engine_options(command, options.load);
     add_flag(command, "--quiet", "Print nothing", options.training.quiet);
+    add_engine_options(command, options.load);
+    add_title(command, "--instance", "Problem");
+    add_title(command, "--out", "Run");
+    add_title(command, "--engine", "Engine");
 }
 
 Option& add_learner_option(Command& command, const solvers::OptionText& option,
@@ -221,6 +224,12 @@ Command ppo_command() {
                                     "Episodes of it that are imitated (20)",
                                     options->imitated_episodes, 1, 1'000'000);
     add_learner_options(command, solvers::ppo_option_table(), options->ppo);
+    add_title(command, "--imitate", "Imitation");
+    add_title(command, "--preset", "Samples");
+    add_title(command, "--lr", "Gradient steps");
+    add_title(command, "--noise", "Exploration");
+    add_title(command, "--hidden", "Networks");
+    add_title(command, "--threads", "Threads");
     command.run = [options] {
         return train_on_ranks(*options, [options](const solvers::Ranks& ranks) {
             return train_ppo(*options, ranks);
@@ -259,6 +268,11 @@ Command cgp_command() {
         "  rddl train cgp Reservoir_ippc2023 1 --time 60 --islands 2 --threads 2";
     add_common_options(command, *options);
     add_learner_options(command, solvers::cgp_option_table(), options->cgp);
+    add_title(command, "--gens", "Search");
+    add_title(command, "--cols", "Programs");
+    add_title(command, "--episodes", "Selection");
+    add_title(command, "--lifted", "Forms of programs");
+    add_title(command, "--islands", "Islands and threads");
     command.run = [options] {
         return train_on_ranks(*options, [options](const solvers::Ranks& ranks) {
             return train_cgp(*options, ranks);

@@ -22,7 +22,7 @@ constexpr double cost_without_jumps = 128;
 constexpr std::size_t longest_operand = 75;
 // Shorter texts are not worth a name.
 constexpr std::size_t shortest_named = 12;
-// Of parts that are longer, none is the longest.
+// Parts that are longer are not compared.
 constexpr std::size_t longest_compared = 2000;
 constexpr std::size_t operator_and_brackets = 4;  // of an operand in a chain
 constexpr std::size_t assignment_width = 3;       // " = "
@@ -57,7 +57,7 @@ std::optional<Operator> chain_operator(const ir::Node& node) {
     return makes_chains ? std::optional(apply->op) : std::nullopt;
 }
 
-// What to call a value that needs a name.
+// The wish for the name of a value.
 std::string_view wish_for(const ir::Node& node) {
     if (const auto* reduce = std::get_if<ir::Reduce>(&node.form)) {
         switch (reduce->op) {
@@ -212,7 +212,7 @@ void FunctionBody::prepare_weights(const ir::Discrete& discrete) {
 
 // Gives names to the parts of `id` that are blocks, from the outside in. C++ may evaluate operands
 // in any order, but the first fault is the one that is told: of several operands that may fault,
-// all but the last get names, too.
+// all but the last also get names.
 void FunctionBody::name_parts_in_order(ir::NodeId id) {
     const std::vector<ir::NodeId> parts = eager_parts(id);
     const auto may_fault = [&](ir::NodeId part) {
@@ -387,7 +387,7 @@ std::vector<ir::NodeId> FunctionBody::chain_parts(ir::NodeId id) const {
     return parts;
 }
 
-// What is evaluated whenever `id` is, before it.
+// The parts that are evaluated whenever `id` is, before it.
 std::vector<ir::NodeId> FunctionBody::eager_parts(ir::NodeId id) const {
     if (expressions_.is_named(id) || is_binder(program()[id])) return {};
     if (const ir::Select* select = lazy_select(id)) return {select->condition};

@@ -32,7 +32,7 @@ class FunctionBody {
     void over_several_objects(const ir::Loop& loop);
     void statement(const ir::Call& call);
 
-    // What a value is for: how wide what stands before it is, with it in one line.
+    // The use of a value: the width of the text before it, if both stand in one line.
     struct Use {
         std::size_t width;
         bool returns = false;
@@ -50,7 +50,7 @@ class FunctionBody {
     void prepare_declaration(ir::NodeId id);
     std::string type_in_declaration(ir::NodeId id);
 
-    // What has been prepared.
+    // A value that has been prepared.
     tree::Expression value(Use use, ir::NodeId id);
     tree::Expression branch(const ir::Select& select);
     bool are_harmless(const std::vector<ir::NodeId>& lambdas) const;

@@ -23,7 +23,7 @@ constexpr std::array<std::string_view, 101> keywords = {
     "unsigned", "using", "virtual", "void", "volatile", "wchar_t", "while", "xor", "xor_eq",
 };
 
-// What `-dM -E` defines in small letters for the standard headers that the runtime includes, with
+// The names that `-dM -E` defines in small letters for the standard headers that the runtime includes, with
 // g++ 12 and clang++ 14 on Linux, strict and GNU mode; sorted. tests/emit checks that none is
 // missing. On other systems more headers bring more of them: some of those are here as well.
 constexpr std::array<std::string_view, 62> macros = {

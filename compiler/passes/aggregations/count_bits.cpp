@@ -18,7 +18,7 @@ namespace {
 constexpr std::int64_t bits_in_an_int = 64;
 // More words than this cost more than rows of the few entries that they have.
 constexpr std::int64_t most_words = 8 * bits_in_an_int;
-// Of which every one is looked at by the compiler.
+// The compiler looks at each of these entries.
 constexpr double most_counted_entries = 1e6;
 
 // Where one execution of the aggregation looks.
@@ -351,7 +351,7 @@ class BitCounting {
         return builder_.apply(op, {a, b});
     }
 
-    // Of a condition that the compiler knows: by row; 0 for elements that do not count.
+    // The word of a condition that the compiler knows: by row; 0 for elements that do not count.
     ir::NodeId known_word(const CountedNest& nest, ir::NodeId condition, bool value,
                           std::int64_t word) {
         std::vector<std::uint64_t> words(row_count());
@@ -364,7 +364,7 @@ class BitCounting {
         return element(nest, words);
     }
 
-    // Of a table by row, if rows differ.
+    // The element of a table by row, if rows differ.
     ir::NodeId element(const CountedNest& nest, const std::vector<std::uint64_t>& words) {
         std::vector<ir::Value> values;
         for (const std::uint64_t bits : words) values.emplace_back(static_cast<std::int64_t>(bits));
@@ -404,7 +404,7 @@ class BitCounting {
     ir::Builder builder_;
     ir::Evaluator evaluator_;
 
-    // Of the aggregation at hand.
+    // Members of the aggregation at hand.
     std::vector<ir::VariableId> variables_;  // that choose the row
     std::optional<std::vector<Row>> places_;
     std::int64_t size_ = 0;  // elements of its tables

@@ -229,7 +229,7 @@ class CountTabulation {
     };
     struct Place {
         ir::BufferId table;
-        std::vector<ir::NodeId> indices;  // but for the count
+        std::vector<ir::NodeId> indices;  // except that of the count
     };
 
     // Nothing if the objects are of too many kinds.

@@ -32,7 +32,7 @@ struct Key {
 
 // All that weights depend on.
 struct Keys {
-    // Of an int or a bool that is made of others: itself, or those.
+    // The parts of an int or a bool that is made of others: itself, or those.
     enum class Kind { Outermost, Innermost } kind;
     std::vector<Key> ints;
     std::set<ir::VariableId> variables;  // of the loops around

@@ -348,9 +348,9 @@ std::optional<Relation> SparsityPattern::either(ir::NodeId a, ir::NodeId b,
     return unite(*first, *second);
 }
 
-// Of something that has its value wherever one operand has the one given for it. `a` is always
-// evaluated, so where it may fault only its own exceptions count; `b` only cannot fault, or is
-// evaluated only where `a` is an exception.
+// The relation of something that has its value wherever one operand has the one given for it. `a`
+// is always evaluated, so where it may fault only its own exceptions count; `b` only cannot fault,
+// or is evaluated only where `a` is an exception.
 std::optional<Relation> SparsityPattern::both(ir::NodeId a, const ir::Value& value_of_a,
                                               ir::NodeId b, const ir::Value& value_of_b) {
     if (properties(a).may_fault) return of(a, value_of_a);
