@@ -88,6 +88,11 @@ class Collector {
 
     void describe(Scalar, const Bits&) { properties_.uniform = false; }
 
+    void describe(Scalar, const Element&) {
+        properties_.uniform = false;
+        properties_.range = Range{0, 1};
+    }
+
     void describe(Scalar type, const Local&) {
         properties_.uniform = false;
         if (type == Scalar::Bool) properties_.range = Range{0, 1};
@@ -387,6 +392,7 @@ std::vector<NodeId> operands_of(const Node& node) {
         [](const Bits&) { return std::vector<NodeId>{}; },
         [](const Load& load) { return load.indices; },
         [](const Search& search) { return std::vector{search.value}; },
+        [](const Element& element) { return std::vector{element.place}; },
         [](const Convert& convert) { return std::vector{convert.operand}; },
         [&](const Apply& apply) { return with_place(apply.place, apply.operands); },
         [](const Select& select) {
@@ -453,6 +459,7 @@ std::optional<BufferId> buffer_read_by(const Node& node) {
         node.form, [](const Load& load) { return std::optional(load.buffer); },
         [](const Search& search) { return std::optional(search.table); },
         [](const Bits& bits) { return std::optional(bits.buffer); },
+        [](const Element& element) { return std::optional(element.buffer); },
         [](const auto&) { return std::optional<BufferId>(); });
 }
 

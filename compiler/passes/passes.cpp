@@ -26,7 +26,10 @@
 #include "passes/constants/tabulate_constant_fluents.hpp"
 #include "passes/constants/tabulate_constants.hpp"
 #include "passes/lanes/evaluate_together.hpp"
+#include "passes/lanes/read_places.hpp"
 #include "passes/lanes/separate_aggregations.hpp"
+#include "passes/lanes/separate_counts.hpp"
+#include "passes/lanes/separate_draws.hpp"
 #include "passes/lanes/unroll_rows.hpp"
 #include "passes/sharing/remove_unused_buffers.hpp"
 #include "passes/sharing/share_across_definitions.hpp"
@@ -102,6 +105,13 @@ constexpr Pass in_order[] = {
      passes::compare_magnitudes},
     {"share_across_definitions", "what several CPFs compute is computed once",
      passes::share_across_definitions},
+    {"separate_counts", "sums that count bools leave them to tables, whose bits are counted",
+     passes::separate_counts},
+    {"read_places",
+     "bools that constants choose are read by their places, for several objects at once",
+     passes::read_places},
+    {"separate_draws", "loops over bools leave their draws to tables, to run over words of bools",
+     passes::separate_draws},
     {"separate_aggregations",
      "loops and sums leave aggregations and terms to tables, to run over several objects at once",
      passes::separate_aggregations},

@@ -32,6 +32,7 @@ bool ObjectLanes::can_evaluate(ir::NodeId id) const {
         program_[id].form, [](const ir::Constant&) { return true; },
         [](const ir::Local&) { return true; }, [](const ir::Bits&) { return true; },
         [&](const ir::Load& load) { return can_load(load); },
+        [&](const ir::Element& element) { return is_at_own_place(element); },
         [&](const ir::Convert& convert) { return can_evaluate(convert.operand); },
         [&](const ir::Apply& apply) { return !apply.place && can_evaluate_all(apply.operands); },
         [&](const ir::Select& select) {
@@ -62,6 +63,14 @@ bool ObjectLanes::can_load(const ir::Load& load) const {
     });
     return is_same || (program_[load.buffer].storage == ir::Storage::Constant &&
                        can_evaluate_all(load.indices));
+}
+
+// Each object has its place in a table.
+bool ObjectLanes::is_at_own_place(const ir::Element& element) const {
+    const auto* places = std::get_if<ir::Load>(&program_[element.place].form);
+    return places && program_[places->buffer].holds_places &&
+           places->indices.size() == nest_.variables.size() &&
+           ir::begins_with(program_, places->indices, nest_);
 }
 
 bool ObjectLanes::can_store(const ir::Store& store) const {

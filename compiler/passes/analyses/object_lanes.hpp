@@ -28,6 +28,7 @@ class ObjectLanes {
 
   private:
     bool can_load(const ir::Load& load) const;
+    bool is_at_own_place(const ir::Element& element) const;
     bool can_evaluate_all(const std::vector<ir::NodeId>& ids) const;
 
     const ir::Program& program_;
