@@ -195,19 +195,16 @@ struct Simulator {
                                    rddl::Context<L>& /*context*/) {
         using Int = typename L::Int;
         using Real = typename L::Real;
-        const Int total = rddl::sum<Int>(xpos_count, [&](rddl::Index c) {
-            return rddl::sum<Int>(ypos_count, [&](rddl::Index r) {
-                const Int number = rddl::to_int(action.douse[c][r]);
-                return rddl::wrap_add(number, rddl::to_int(action.clear[c][r]));
-            });
-        });
-        const Int total_2 = rddl::sum<Int>(3, [&](rddl::Index entry) {
+        const Int total = rddl::sum<Int>(3, [&](rddl::Index entry) {
             return rddl::to_int(scratch.ignites[HOUSE_c_[entry]][HOUSE_r_[entry]]);
         });
+        const Int count = rddl::count_ones(rddl::action_bits(action.douse));
         const Real term =
+            rddl::to_real(rddl::wrap_add(count, rddl::count_ones(rddl::action_bits(action.clear))));
+        const Real term_2 =
             rddl::to_real(rddl::count_ones(rddl::bits(next.burning))) +
-            50.0 * rddl::to_real(total_2) + 0.5 * rddl::to_real(total);
-        return -term;
+            50.0 * rddl::to_real(total) + 0.5 * term;
+        return -term_2;
     }
 
     // An episode ends where one of these holds.

@@ -33,8 +33,10 @@ inline constexpr rddl::Index computer_count = 8;  // c1, c2, c3, c4, c5, c6, c7,
 // running, domain.rddl:24
 inline constexpr std::array<bool, computer_count> initial_running = {1, 1, 0, 1, 1, 1, 1, 1};
 
-// LINK-object, domain.rddl:16
-inline constexpr std::array<std::int64_t, computer_count> LINK_object_ = {7, 0, 1, 2, 3, 4, 5, 6};
+// running-places, domain.rddl:40
+inline constexpr std::array<std::uint8_t, computer_count> running_places_ = {
+    7, 0, 1, 2, 3, 4, 5, 6
+};
 
 // --------------------------------------------------------------------------------- records
 
@@ -82,20 +84,18 @@ struct Simulator {
     template <class L>
     static void set_running(const State<L>& state, const Action<L>& action, State<L>& next,
                             rddl::Context<L>& context) {
-        using Int = typename L::Int;
-        using Real = typename L::Real;
-        for (rddl::Index c = 0; c < computer_count; ++c) {
-            next.running[c] = rddl::branch(
-                context, action.reboot[c],
+        rddl::for_each_object(context, computer_count, [&](auto& several, auto c) {
+            rddl::elements(next.running, c) = rddl::branch(
+                several, rddl::at(action.reboot, c),
                 [&] { return true; },
                 [&] {
-                    const Int number =
-                        rddl::wrap_add(1, rddl::to_int(state.running[LINK_object_[c]]));
-                    const Real term = 0.45 + 0.5 * (rddl::to_real(number) * 0.5);
-                    const Real term_2 = rddl::select(state.running[c], term, 0.05);
-                    return rddl::sample::valid_bernoulli(context, {0, c}, term_2);
+                    const auto number =
+                        rddl::to_int(rddl::at_places(state.running, c, running_places_));
+                    const auto term = 0.45 + 0.5 * (rddl::to_real(rddl::wrap_add(1, number)) * 0.5);
+                    const auto term_2 = rddl::select(rddl::at(state.running, c), term, 0.05);
+                    return rddl::sample::valid_bernoulli(several, {0, c}, term_2);
                 });
-        }
+        });
     }
 
     // The reward of the step that was just made.

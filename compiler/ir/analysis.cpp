@@ -88,6 +88,11 @@ class Collector {
 
     void describe(Scalar, const Bits&) { properties_.uniform = false; }
 
+    void describe(Scalar, const Element&) {
+        properties_.uniform = false;
+        properties_.range = Range{0, 1};
+    }
+
     void describe(Scalar type, const Local&) {
         properties_.uniform = false;
         if (type == Scalar::Bool) properties_.range = Range{0, 1};
@@ -392,6 +397,7 @@ std::vector<NodeId> operands_of(const Node& node) {
         [](const Bits&) { return std::vector<NodeId>{}; },
         [](const Load& load) { return load.indices; },
         [](const Search& search) { return std::vector{search.value}; },
+        [](const Element& element) { return std::vector{element.place}; },
         [](const Convert& convert) { return std::vector{convert.operand}; },
         [&](const Apply& apply) { return with_place(apply.place, apply.operands); },
         [](const Select& select) {
@@ -460,6 +466,7 @@ std::optional<BufferId> buffer_read_by(const Node& node) {
         [](const Search& search) { return std::optional(search.table); },
         [](const Bits& bits) { return std::optional(bits.buffer); },
         [](const Interval& interval) { return std::optional(interval.table); },
+        [](const Element& element) { return std::optional(element.buffer); },
         [](const auto&) { return std::optional<BufferId>(); });
 }
 

@@ -54,6 +54,10 @@ class Key {
         add(form.buffer);
         add(static_cast<std::uint64_t>(form.first));
     }
+    void add(const Element& form) {
+        add(form.buffer);
+        add(form.place);
+    }
     void add(const Load& form) {
         add(form.buffer);
         add(form.indices);
@@ -203,6 +207,10 @@ NodeId Builder::bits(BufferId buffer, std::int64_t first) {
     return intern({Scalar::Int, Bits{buffer, first}});
 }
 
+NodeId Builder::element(BufferId buffer, NodeId place) {
+    return intern({Scalar::Bool, Element{buffer, place}});
+}
+
 NodeId Builder::local(LocalId id, Scalar type) {
     return intern({type, Local{id}});
 }
@@ -294,6 +302,7 @@ NodeId Builder::rebuild(const Node& node) {
         [&](const Load& form) { return load(form.buffer, form.indices); },
         [&](const Search& form) { return search(form.table, form.value); },
         [&](const Bits& form) { return bits(form.buffer, form.first); },
+        [&](const Element& form) { return element(form.buffer, form.place); },
         [&](const Local& form) { return local(form.local, node.type); },
         [&](const Convert& form) { return convert(form.operand, node.type); },
         [&](const Apply& form) { return apply(form.op, form.operands, form.place); },

@@ -34,6 +34,8 @@ class Builder {
     NodeId search(BufferId table, NodeId value);
     // `buffer` is not a Constant.
     NodeId bits(BufferId buffer, std::int64_t first);
+    // `buffer` is not a Constant.
+    NodeId element(BufferId buffer, NodeId place);
     NodeId local(LocalId local, Scalar type);
     NodeId convert(NodeId operand, Scalar type);
     // `place` for exactly the operators that may fault (vocabulary/vocabulary.hpp).

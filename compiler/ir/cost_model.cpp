@@ -76,7 +76,10 @@ class BlockCost {
     }
     void add(const Loop& loop, Place place) {
         const double size = size_of(program_, loop.variable);
-        const double times = loop.several_at_once ? std::ceil(size / objects_at_once) : size;
+        const double at_once = loop.as_words          ? bools_at_once
+                               : loop.several_at_once ? objects_at_once
+                                                      : 1;
+        const double times = std::ceil(size / at_once);
         pay(times, place);
         add(loop.body, inside(place, loop.variable, times));
     }
@@ -178,7 +181,7 @@ double cost_of(Operator op) {
 
 double own_cost(const Program& program, const Node& node) {
     return match(
-        node.form, [](const Load&) { return 1.0; },
+        node.form, [](const Load&) { return 1.0; }, [](const Element&) { return 1.0; },
         [&](const Search& search) {
             const auto size = static_cast<double>(program[search.table].count());
             return 2 * std::ceil(std::log2(size + 1));

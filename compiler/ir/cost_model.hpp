@@ -20,6 +20,8 @@ inline constexpr double elementary_cost = 20;
 inline constexpr double draw_cost = 20;
 // Iterations that a loop over several objects makes at once: the doubles of an AVX2 register.
 inline constexpr double objects_at_once = 4;
+// The same where values are bools: some instructions take 64 of them from tables to words and back.
+inline constexpr double bools_at_once = 16;
 
 double cost_of(Operator op);
 

@@ -322,6 +322,10 @@ T Evaluator::value(NodeId id, Frame& frame) const {
                      if constexpr (is_int) return bits(form, frame);
                      own_mistake("a form of the IR has no value of this type");
                  },
+                 [&](const Element& form) -> T {
+                     if constexpr (std::is_same_v<T, bool>) return element_at(form, frame);
+                     own_mistake("a form of the IR has no value of this type");
+                 },
                  [&](const Local& form) -> T {
                      return Frame::of<T>(frame.slots_[local_slots_[form.local.index]]);
                  },
@@ -364,6 +368,11 @@ std::int64_t Evaluator::bits(const Bits& form, Frame& frame) const {
     for (std::int64_t i = 0; i < std::min<std::int64_t>(count, 64); ++i)
         bits |= std::uint64_t{bools[i] != std::byte{0}} << i;
     return static_cast<std::int64_t>(bits);
+}
+
+bool Evaluator::element_at(const Element& form, Frame& frame) const {
+    const std::byte* const bools = element(form.buffer, {}, frame);
+    return bools[value<std::int64_t>(form.place, frame)] != std::byte{0};
 }
 
 template <class T>

@@ -120,6 +120,7 @@ class Evaluator {
     bool apply_to_bools(const Apply& form, Frame& frame) const;
     std::int64_t search(const Search& form, Frame& frame) const;
     std::int64_t bits(const Bits& form, Frame& frame) const;
+    bool element_at(const Element& form, Frame& frame) const;
     template <class T>
     T convert_operand(const Convert& form, Frame& frame) const;
     rddl::IndexRange range(const Reduce& form, Frame& frame) const;

@@ -84,6 +84,8 @@ struct Buffer {
     // Within which every element lies, where that is known: of reals that the step computes
     // (is_computed_in_step), and of those of a program for moderate values.
     std::optional<Range> range = {};
+    // Constant ints that only Element reads: emitted code keeps each in as few bytes as it takes.
+    bool holds_places = false;
 
     std::int64_t count() const;
     // Its readers get what the step has computed. Actions and observations may come from elsewhere,
@@ -137,6 +139,12 @@ struct Bits {
     BufferId buffer;
     std::int64_t first;
     bool operator==(const Bits&) const = default;
+};
+// The element of a table of bools that has this place in row-major order.
+struct Element {
+    BufferId buffer;
+    NodeId place;  // Int, in range by construction
+    bool operator==(const Element&) const = default;
 };
 struct Local {  // the value of an enclosing Let
     LocalId local;
@@ -209,8 +217,8 @@ struct Fault {
 
 struct Node {
     Scalar type;
-    std::variant<Constant, Index, Load, Search, Bits, Local, Convert, Apply, Select, Reduce, Sample,
-                 Discrete, DiscreteOver, Interval, Fault>
+    std::variant<Constant, Index, Load, Search, Bits, Element, Local, Convert, Apply, Select,
+                 Reduce, Sample, Discrete, DiscreteOver, Interval, Fault>
         form;
     bool operator==(const Node&) const = default;
 };
@@ -236,6 +244,9 @@ struct Loop {
     // The loop, with the loops right inside of it, may run over several objects at once: no
     // iteration needs another (passes/lanes/evaluate_together.hpp).
     bool several_at_once = false;
+    // Then: its values are bools alone, and a word holds those of many objects
+    // (passes/analyses/bool_words.hpp).
+    bool as_words = false;
 };
 // A part of a buffer: the leading dimensions have indices, the others are passed whole.
 struct TableView {

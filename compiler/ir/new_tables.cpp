@@ -9,7 +9,7 @@ namespace {
 bool are_alike(const Buffer& a, const Buffer& b) {
     return a.storage == Storage::Constant && b.storage == Storage::Constant &&
            a.scalar == b.scalar && a.shape == b.shape && a.types == b.types &&
-           identical(a.values, b.values);
+           a.holds_places == b.holds_places && identical(a.values, b.values);
 }
 
 }  // namespace

@@ -252,7 +252,9 @@ class Printer {
         writer_.line(element(store.target, store.indices) + " = " + expression(store.value));
     }
     void print(const Loop& loop) {
-        const char* const how = loop.several_at_once ? ", several at once" : "";
+        const char* const how = loop.as_words          ? ", as words"
+                                : loop.several_at_once ? ", several at once"
+                                                       : "";
         writer_.line(fmt::format("for {}{}", binding(loop.variable), how)).indent();
         block(loop.body);
         writer_.dedent();
@@ -318,6 +320,9 @@ class Printer {
     }
     std::string text(const Bits& form, Scalar, Precedence) const {
         return fmt::format("bits({}, {})", element(form.buffer, {}), form.first);
+    }
+    std::string text(const Element& form, Scalar, Precedence) const {
+        return fmt::format("element({}, {})", element(form.buffer, {}), expression(form.place));
     }
     std::string text(const Local& form, Scalar, Precedence) const {
         return fmt::format("%{}", form.local.index);

@@ -38,6 +38,7 @@ void change_operands(Node& node, const Change& change) {
         node.form, [](Constant&) {}, [](Index&) {}, [](Local&) {}, [](Bits&) {},
         [&](Load& load) { change_all(load.indices, change); },
         [&](Search& search) { change(search.value); },
+        [&](Element& element) { change(element.place); },
         [&](Convert& convert) { change(convert.operand); },
         [&](Apply& apply) {
             change_all(apply.operands, change);
@@ -105,6 +106,7 @@ void change_buffers(Program& program, const std::function<void(BufferId&)>& chan
         if (auto* search = std::get_if<Search>(&node.form)) change(search->table);
         if (auto* bits = std::get_if<Bits>(&node.form)) change(bits->buffer);
         if (auto* interval = std::get_if<Interval>(&node.form)) change(interval->table);
+        if (auto* element = std::get_if<Element>(&node.form)) change(element->buffer);
     }
     for (Definition* definition : definitions_of(program)) {
         change(definition->target);

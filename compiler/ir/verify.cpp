@@ -251,6 +251,11 @@ class Verifier {
                buffer.storage != Storage::Constant && form.first >= 0 && form.first % 64 == 0 &&
                form.first < buffer.count();
     }
+    bool fits(const Element& form, Scalar result) const {
+        const Buffer& buffer = program_[form.buffer];
+        return result == Scalar::Bool && buffer.scalar == Scalar::Bool &&
+               buffer.storage != Storage::Constant && type(form.place) == Scalar::Int;
+    }
     bool fits(const Local&, Scalar) const { return true; }  // compared with its Let
     bool fits(const Convert& form, Scalar to) const { return type(form.operand) < to; }
     bool fits(const Select& form, Scalar result) const {

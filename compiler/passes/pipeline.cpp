@@ -24,7 +24,10 @@
 #include "passes/constants/tabulate_constant_fluents.hpp"
 #include "passes/constants/tabulate_constants.hpp"
 #include "passes/lanes/evaluate_together.hpp"
+#include "passes/lanes/read_places.hpp"
 #include "passes/lanes/separate_aggregations.hpp"
+#include "passes/lanes/separate_counts.hpp"
+#include "passes/lanes/separate_draws.hpp"
 #include "passes/lanes/unroll_rows.hpp"
 #include "passes/sharing/remove_unused_buffers.hpp"
 #include "passes/sharing/share_across_definitions.hpp"
@@ -192,6 +195,24 @@ constexpr Pass in_order[] = {
      "expressions that several CPFs compute are computed once",
      {"fuse_interm_fluents", "count_bits"},
      "expressions have their final form, so that equal ones are equal"},
+    {"separate_counts",
+     Phase::Lanes,
+     separate_counts,
+     "sums that count bools leave them to tables, whose bits are counted",
+     {"count_bits", "share_across_definitions"},
+     "the other sums of bools count bits already"},
+    {"read_places",
+     Phase::Lanes,
+     read_places,
+     "bools that constants choose are read by their places, for several objects at once",
+     {"share_across_definitions"},
+     "a table of places has to serve all that read by it"},
+    {"separate_draws",
+     Phase::Lanes,
+     separate_draws,
+     "loops over bools leave their draws to tables, to run over words of bools",
+     {"merge_draws", "read_places"},
+     "a loop has to read all its bools in words before its draws are worth a table"},
     {"separate_aggregations",
      Phase::Lanes,
      separate_aggregations,

@@ -121,6 +121,16 @@ Expression Expressions::lower(const ir::Node& node, const ir::Search& search) {
                       {lower(search.value)});
 }
 
+// "rddl::at_places(state.up, x, up_places)": for several objects; else "rddl::element(state.up,
+// i)".
+Expression Expressions::lower(const ir::Node&, const ir::Element& element) {
+    if (!several_)
+        return tree::call("rddl::element", {record(element.buffer), index(element.place)});
+    const auto& places = std::get<ir::Load>(unit_.program[element.place].form);
+    return tree::call("rddl::at_places",
+                      {record(element.buffer), word(several_->objects), record(places.buffer)});
+}
+
 Expression Expressions::lower(const ir::Node&, const ir::Bits& bits) {
     const std::string first = bits.first == 0 ? "" : "<" + std::to_string(bits.first) + ">";
     const bool of_action = unit_.program[bits.buffer].storage == ir::Storage::Action;

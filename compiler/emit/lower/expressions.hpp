@@ -110,6 +110,7 @@ class Expressions {
     tree::Expression lower(const ir::Node& node, const ir::Load& load);
     tree::Expression lower(const ir::Node& node, const ir::Search& search);
     tree::Expression lower(const ir::Node& node, const ir::Bits& bits);
+    tree::Expression lower(const ir::Node& node, const ir::Element& element);
     tree::Expression lower(const ir::Node& node, const ir::Local& local);
     tree::Expression lower(const ir::Node& node, const ir::Convert& convert);
     tree::Expression lower(const ir::Node& node, const ir::Apply& apply);

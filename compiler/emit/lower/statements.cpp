@@ -155,10 +155,12 @@ void FunctionBody::over_several_objects(const ir::Loop& loop) {
     tree::Expressions parameters = {
         has_context ? tree::Expression{tree::Declared{"auto&", context}} : tree::word("auto&"),
         {tree::Declared{"auto", objects}}};
-    statements_.push_back({tree::call("rddl::for_each_object",
-                                      {tree::word("context"),
-                                       std::move(count),
-                                       {tree::Lambda{std::move(parameters), std::move(body)}}})});
+    const char* const function =
+        loop.as_words ? "rddl::for_each_object_in_words" : "rddl::for_each_object";
+    statements_.push_back(
+        {tree::call(function, {tree::word("context"),
+                               std::move(count),
+                               {tree::Lambda{std::move(parameters), std::move(body)}}})});
     expressions_.leave_nest();
     expressions_.return_to(before);
 }

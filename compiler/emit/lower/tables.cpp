@@ -8,6 +8,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <limits>
 
 namespace rddlc::cpp {
 namespace {
@@ -60,6 +62,16 @@ std::string object_list(const ir::ObjectType& type) {
         text += next;
     }
     return text;
+}
+
+// Places take as few bytes as they need.
+std::string element_type(const ir::Buffer& buffer, RealType real) {
+    if (!buffer.holds_places) return table_type(buffer.scalar, real);
+    std::int64_t last = 0;
+    for (const ir::Value& place : buffer.values.dense())
+        last = std::max(last, std::get<std::int64_t>(place));
+    if (last <= std::numeric_limits<std::uint8_t>::max()) return "std::uint8_t";
+    return last <= std::numeric_limits<std::uint16_t>::max() ? "std::uint16_t" : "std::uint32_t";
 }
 
 tree::Statement size_assert(tree::Expression size, std::size_t bytes) {
@@ -148,7 +160,7 @@ std::string tables(const Unit& unit, const Unit* around) {
         const RealType real = unit.program.real;
         // Episodes start in the program around.
         if (around && (!initial.empty() || has_table(*around, name, buffer, real))) continue;
-        const std::string type = array_type(unit, buffer, table_type(buffer.scalar, real));
+        const std::string type = array_type(unit, buffer, element_type(buffer, real));
         definitions.push_back(table(type, name, buffer.shape, buffer.values.dense(), real));
         definitions.back().comment = comment_text(buffer.name) + ", " + unit.where(buffer.span);
     }

@@ -51,6 +51,7 @@ class BitCounting {
 
   private:
     std::optional<ir::NodeId> counted(ir::NodeId id) {
+        if (const auto parts = sum_of_parts(id)) return parts;
         const std::optional<CountedNest> nest = nest_of(id);
         if (!nest) return std::nullopt;
         places_.reset();
@@ -58,6 +59,32 @@ class BitCounting {
         if (!find_places(*nest) || !is_worthwhile(*nest)) return std::nullopt;
         ++report_["aggregations that count bits"];
         return nest->op == Reduction::Sum ? sum(*nest) : tested(*nest);
+    }
+
+    // sum(int(a) - int(b)) = sum(int(a)) - sum(int(b)), if bits count both; ints wrap around.
+    std::optional<ir::NodeId> sum_of_parts(ir::NodeId id) {
+        std::vector<ir::Reduce> levels;
+        ir::NodeId term = id;
+        while (const auto* level = std::get_if<ir::Reduce>(&program_[term].form)) {
+            if (level->op != Reduction::Sum) return std::nullopt;
+            levels.push_back(*level);
+            term = level->body;
+        }
+        const auto* apply = std::get_if<ir::Apply>(&program_[term].form);
+        const bool has_parts =
+            !levels.empty() && apply && program_[term].type == ir::Scalar::Int &&
+            is_one_of(apply->op, {Operator::Negate, Operator::Add, Operator::Subtract});
+        if (!has_parts) return std::nullopt;
+        const ir::Apply parts = *apply;
+        std::vector<ir::NodeId> sums;
+        for (ir::NodeId part : parts.operands) {
+            for (auto level = levels.rbegin(); level != levels.rend(); ++level)
+                part = builder_.reduce(Reduction::Sum, level->variable, part, level->bounds);
+            const auto sum = counted(part);
+            if (!sum) return std::nullopt;
+            sums.push_back(*sum);
+        }
+        return builder_.apply(parts.op, std::move(sums));
     }
 
     // ------------------------------------------------------------------------------ finding

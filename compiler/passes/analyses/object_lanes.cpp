@@ -32,6 +32,7 @@ bool ObjectLanes::can_evaluate(ir::NodeId id) const {
         program_[id].form, [](const ir::Constant&) { return true; },
         [](const ir::Local&) { return true; }, [](const ir::Bits&) { return true; },
         [&](const ir::Load& load) { return can_index(load.buffer, load.indices); },
+        [&](const ir::Element& element) { return is_at_own_place(element); },
         [&](const ir::Convert& convert) { return can_evaluate(convert.operand); },
         [&](const ir::Apply& apply) { return !apply.place && can_evaluate_all(apply.operands); },
         [&](const ir::Select& select) {
@@ -65,6 +66,14 @@ bool ObjectLanes::can_index(ir::BufferId buffer, const std::vector<ir::NodeId>& 
     });
     return is_same ||
            (program_[buffer].storage == ir::Storage::Constant && can_evaluate_all(indices));
+}
+
+// Each object has its place in a table.
+bool ObjectLanes::is_at_own_place(const ir::Element& element) const {
+    const auto* places = std::get_if<ir::Load>(&program_[element.place].form);
+    return places && program_[places->buffer].holds_places &&
+           places->indices.size() == nest_.variables.size() &&
+           ir::begins_with(program_, places->indices, nest_);
 }
 
 bool ObjectLanes::can_store(const ir::Store& store) const {

@@ -28,6 +28,7 @@ class ObjectLanes {
 
   private:
     bool can_index(ir::BufferId buffer, const std::vector<ir::NodeId>& indices) const;
+    bool is_at_own_place(const ir::Element& element) const;
     bool can_evaluate_all(const std::vector<ir::NodeId>& ids) const;
 
     const ir::Program& program_;

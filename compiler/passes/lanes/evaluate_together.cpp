@@ -2,6 +2,7 @@
 
 #include "ir/analysis.hpp"
 #include "ir/nest.hpp"
+#include "passes/analyses/bool_words.hpp"
 #include "passes/analyses/object_lanes.hpp"
 #include "support/match.hpp"
 
@@ -27,6 +28,7 @@ class Marking {
             if (!loop) continue;
             const bool was_marked =
                 std::exchange(loop->several_at_once, is_worth_it(*loop) && is_possible(*loop));
+            loop->as_words = loop->several_at_once && is_of_words(*loop);
             marked += loop->several_at_once && !was_marked;
         }
         return marked;
@@ -49,6 +51,16 @@ class Marking {
                 scalar == ir::Scalar::Bool || properties_[store->value.index].random;
         }
         return draws_or_is_bool || cost >= least_cost_of_reals;
+    }
+    bool is_of_words(const ir::Loop& loop) const {
+        const ir::Nest nest = ir::nest_of(loop);
+        return are_many(program_, nest) &&
+               std::ranges::all_of(*nest.body, [&](const ir::Statement& statement) {
+                   const auto* let = std::get_if<ir::Let>(&statement.form);
+                   const auto* store = std::get_if<ir::Store>(&statement.form);
+                   return (let && is_of_bools(program_, let->value, nest)) ||
+                          (store && is_of_bools(program_, store->value, nest));
+               });
     }
     double cost_of(ir::NodeId id) const { return properties_[id.index].cost; }
 

@@ -465,6 +465,19 @@ typedef std::uint64_t TwoWords __attribute__((vector_size(16)));
     load(std::uint8_t{});
     return (__m128i)words;
 }
+// The same of 0 < `count` <= 64 bytes.
+[[gnu::always_inline]] inline __m512i load_many_parts(const void* bytes, int count) {
+    const auto part = [&](int i) __attribute__((always_inline)) {
+        const int rest = count - i;
+        if (rest <= 0) return __m128i{};
+        return load_parts(static_cast<const char*>(bytes) + i, rest < 16 ? rest : 16);
+    };
+    const auto half = [&](int i) __attribute__((always_inline)) {
+        return _mm256_inserti128_si256(_mm256_castsi128_si256(part(i)), part(i + 16), 1);
+    };
+    const __m512i first = _mm512_maskz_inserti64x4(0xF, __m512i{}, half(0), 0);
+    return count <= 32 ? first : _mm512_maskz_inserti64x4(0xFF, first, half(32), 1);
+}
 [[gnu::always_inline]] inline void store_parts(void* bytes, __m128i values, int count) {
     if (count == 16) return _mm_storeu_si128(static_cast<__m128i_u*>(bytes), values);
     int i = 0;
@@ -479,6 +492,14 @@ typedef std::uint64_t TwoWords __attribute__((vector_size(16)));
     store(std::uint16_t{});
     store(std::uint8_t{});
 }
+[[gnu::always_inline]] inline void store_many_parts(void* bytes, std::uint64_t bits, int count) {
+    if (count == 64) return _mm512_storeu_si512(bytes, _mm512_maskz_set1_epi8(bits, 1));
+#pragma GCC unroll 4
+    for (int i = 0; i < count; i += 16)
+        store_parts(static_cast<char*>(bytes) + i,
+                    _mm_maskz_set1_epi8(static_cast<__mmask16>(bits >> i), 1),
+                    count - i < 16 ? count - i : 16);
+}
 #endif
 
 // A bit for each of 0 < `count` <= 64 bytes that is not 0.
@@ -489,7 +510,16 @@ typedef std::uint64_t TwoWords __attribute__((vector_size(16)));
 #else
     constexpr std::uint64_t low_bits = 0x7F7F7F7F7F7F7F7F, ones = 0x0101010101010101;
     std::uint64_t bits = 0;
-    for (int i = 0; i < count; i += 8) {
+    int i = 0;
+#ifdef __AVX2__
+    for (; i + 16 <= count; i += 16) {
+        const __m128i values = _mm_loadu_si128(
+            reinterpret_cast<const __m128i_u*>(static_cast<const char*>(bytes) + i));
+        const int zero = _mm_movemask_epi8(_mm_cmpeq_epi8(values, _mm_setzero_si128()));
+        bits |= static_cast<std::uint64_t>(zero ^ 0xFFFF) << i;
+    }
+#endif
+    for (; i < count; i += 8) {
         std::uint64_t chunk = 0;
         __builtin_memcpy(&chunk, static_cast<const char*>(bytes) + i,
                          i + 8 < count ? 8 : count - i);
@@ -522,6 +552,7 @@ template <int n>
 #ifdef RDDL_SIMD_AVX512
     if (n == 16 && __builtin_constant_p(count))
         return store_parts(bytes, _mm_maskz_set1_epi8(static_cast<__mmask16>(bits), 1), count);
+    if (n == 64 && __builtin_constant_p(count)) return store_many_parts(bytes, bits, count);
     const std::uint64_t stored = ~std::uint64_t{0} >> (64 - count);
     if constexpr (n <= 16)
         _mm_mask_storeu_epi8(bytes, static_cast<__mmask16>(stored),
@@ -529,7 +560,18 @@ template <int n>
     else
         _mm512_mask_storeu_epi8(bytes, stored, _mm512_maskz_set1_epi8(bits, 1));
 #else
-    for (int i = 0; i < count; i += 8) {
+    int i = 0;
+#ifdef __AVX2__
+    const __m128i own_bit = _mm_set1_epi64x(static_cast<std::int64_t>(0x8040201008040201));
+    const __m128i own_byte = _mm_set_epi64x(0x0101010101010101, 0);
+    for (; i + 16 <= count; i += 16) {
+        const __m128i all = _mm_set1_epi16(static_cast<std::int16_t>(bits >> i));
+        const __m128i own = _mm_and_si128(_mm_shuffle_epi8(all, own_byte), own_bit);
+        const __m128i values = _mm_and_si128(_mm_cmpeq_epi8(own, own_bit), _mm_set1_epi8(1));
+        _mm_storeu_si128(reinterpret_cast<__m128i_u*>(static_cast<char*>(bytes) + i), values);
+    }
+#endif
+    for (; i < count; i += 8) {
         const std::uint64_t chunk = bytes_of_bits(bits >> i & 0xFF);
         __builtin_memcpy(static_cast<char*>(bytes) + i, &chunk, count - i < 8 ? count - i : 8);
     }

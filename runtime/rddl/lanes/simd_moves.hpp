@@ -170,6 +170,87 @@ template <class V>
     detail::exchange_all<1>(rows);
 }
 
+// ---------------------------------------------------------------------------- bytes by place
+
+#ifdef __AVX512VBMI__
+namespace detail {
+
+// By the lower 7 bits of their places, those that are there.
+template <int size>
+[[gnu::always_inline]] inline std::uint64_t bits_of_chosen_bytes(const char* table,
+                                                                 std::uint64_t there,
+                                                                 __m512i places) {
+    const __m512i first = load_many_parts(table, size < 64 ? size : 64);
+    __m512i chosen;
+    if constexpr (size <= 64)
+        chosen = _mm512_maskz_permutexvar_epi8(there, places, first);
+    else
+        chosen = _mm512_maskz_permutex2var_epi8(there, first, places,
+                                                load_many_parts(table + 64, size - 64));
+    return _mm512_test_epi8_mask(chosen, chosen);
+}
+
+}  // namespace detail
+#elif defined(__AVX2__)
+namespace detail {
+
+// The bytes of a table of `size` <= 128 that have these places: 16 of the table at a time, from
+// which the other places take zero (adding 0x70 sets the highest bit of what is 16 or more).
+template <int size>
+[[gnu::always_inline]] inline __m256i chosen_bytes(const char* table, __m256i places) {
+    __m256i chosen = _mm256_setzero_si256();
+#pragma GCC unroll 8
+    for (int first = 0; first < size; first += 16) {
+        __m128i some = _mm_setzero_si128();
+        __builtin_memcpy(&some, table + first, size - first < 16 ? size - first : 16);
+        const __m256i from_first =
+            _mm256_sub_epi8(places, _mm256_set1_epi8(static_cast<char>(first)));
+        chosen = _mm256_or_si256(
+            chosen, _mm256_shuffle_epi8(_mm256_broadcastsi128_si256(some),
+                                        _mm256_adds_epu8(from_first, _mm256_set1_epi8(0x70))));
+    }
+    return chosen;
+}
+
+}  // namespace detail
+#endif
+
+// A bit for each of 0 < `count` <= 64 bytes of a table of `size` that is not 0: those with these
+// places.
+template <std::int64_t size, class Place>
+[[gnu::always_inline]] inline std::uint64_t bits_of_chosen_bytes(const void* table,
+                                                                 const Place* places, int count) {
+    const char* const bytes = static_cast<const char*>(table);
+    std::uint64_t bits = 0;
+#ifdef __AVX512VBMI__
+    if constexpr (sizeof(Place) == 1) {
+        const std::uint64_t there = ~std::uint64_t{0} >> (64 - count);
+        const __m512i numbers = _mm512_maskz_loadu_epi8(there, places);
+        const std::uint64_t in_first =
+            detail::bits_of_chosen_bytes<(size < 128 ? size : 128)>(bytes, there, numbers);
+        if constexpr (size <= 128) return in_first;
+        const std::uint64_t in_second = detail::bits_of_chosen_bytes<(size > 128 ? size - 128 : 1)>(
+            bytes + 128, there, numbers);
+        const std::uint64_t is_second = _mm512_movepi8_mask(numbers);
+        return (in_first & ~is_second) | (in_second & is_second);
+    }
+#elif defined(__AVX2__)
+    if constexpr (sizeof(Place) == 1 && size <= 128) {
+        for (int first = 0; first < count; first += 32) {
+            __m256i numbers = _mm256_setzero_si256();
+            __builtin_memcpy(&numbers, places + first, count - first < 32 ? count - first : 32);
+            const __m256i chosen = detail::chosen_bytes<static_cast<int>(size)>(bytes, numbers);
+            const int zero =
+                _mm256_movemask_epi8(_mm256_cmpeq_epi8(chosen, _mm256_setzero_si256()));
+            bits |= std::uint64_t{~static_cast<std::uint32_t>(zero)} << first;
+        }
+        return bits & ~std::uint64_t{0} >> (64 - count);
+    }
+#endif
+    for (int k = 0; k < count; ++k) bits |= std::uint64_t{bytes[places[k]] != 0} << k;
+    return bits;
+}
+
 // ------------------------------------------------------------------------ some of the lanes
 
 // The lanes of several registers where the mask holds, 8 at most, one after the other; `others` in

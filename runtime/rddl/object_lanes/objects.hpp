@@ -188,6 +188,20 @@ RDDL_INLINE auto at_own(const Table& table, const SomeObjects<n>& objects,
                                                         select(objects.mask(), places, Int{0}));
 }
 
+// The elements of a table of bools at places that each object has in another table.
+template <class Table, class Places>
+RDDL_INLINE const auto& at_places(const Table& table, OneObject object, const Places& places) {
+    return (&detail::first_part<0>(table))[(&detail::first_part<0>(places))[object.place]];
+}
+template <class Table, int n, class Places>
+RDDL_INLINE Mask<n> at_places(const Table& table, const SomeObjects<n>& objects,
+                              const Places& places) {
+    constexpr std::int64_t size = detail::Nested<Table>::count;
+    return Mask<n>::of_bits(simd::bits_of_chosen_bytes<size>(
+        &detail::first_part<0>(table), &detail::first_part<0>(places) + objects.first,
+        objects.count));
+}
+
 // The elements in which values are stored.
 template <class Table>
 RDDL_INLINE auto& elements(Table& table, OneObject object) {
@@ -208,14 +222,10 @@ RDDL_INLINE void Elements<T, n>::operator=(const Value& values) const {
 // ------------------------------------------------------------------------------------ loops
 
 // Calls body(context, object) for [0, count): for a context of these objects.
+namespace detail {
+
 template <int n, class R, class Body>
-RDDL_INLINE void for_each_object(Context<Pack<n, R>>& context, Index count, Body&& body) {
-    for (Index i = 0; i < count; ++i) body(context, OneObject{i});
-}
-inline constexpr int objects_at_once = 16;
-template <class R, class Body>
-RDDL_INLINE void for_each_object(Context<ScalarOf<R>>& context, Index count, Body&& body) {
-    constexpr int n = objects_at_once;
+RDDL_INLINE void for_each_of_several(Context<ScalarOf<R>>& context, Index count, Body&& body) {
     const philox::Schedule<philox::draw_rounds, std::uint64_t> schedule(
         context.step, {context.key.low, context.key.high});
     const auto some_at = [&](Index first, int some_count) RDDL_INLINE_LAMBDA {
@@ -228,6 +238,29 @@ RDDL_INLINE void for_each_object(Context<ScalarOf<R>>& context, Index count, Bod
     const Index full = count / n * n;
     for (Index first = 0; first < full; first += n) some_at(first, n);
     if (full < count) some_at(full, static_cast<int>(count - full));
+}
+
+}  // namespace detail
+
+template <int n, class R, class Body>
+RDDL_INLINE void for_each_object(Context<Pack<n, R>>& context, Index count, Body&& body) {
+    for (Index i = 0; i < count; ++i) body(context, OneObject{i});
+}
+inline constexpr int objects_at_once = 16;
+template <class R, class Body>
+RDDL_INLINE void for_each_object(Context<ScalarOf<R>>& context, Index count, Body&& body) {
+    detail::for_each_of_several<objects_at_once>(context, count, body);
+}
+
+// The same for a body whose values are bools: one environment has those of 64 objects in a word.
+template <int n, class R, class Body>
+RDDL_INLINE void for_each_object_in_words(Context<Pack<n, R>>& context, Index count, Body&& body) {
+    for_each_object(context, count, body);
+}
+inline constexpr int bools_in_a_word = 64;
+template <class R, class Body>
+RDDL_INLINE void for_each_object_in_words(Context<ScalarOf<R>>& context, Index count, Body&& body) {
+    detail::for_each_of_several<bools_in_a_word>(context, count, body);
 }
 
 }  // namespace rddl

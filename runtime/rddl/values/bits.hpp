@@ -57,6 +57,12 @@ auto action_bits(const Table& table) {
     return bits<first, false>(table);
 }
 
+// The element of a table of bools that has this place in row-major order.
+template <class Table>
+RDDL_INLINE const auto& element(const Table& table, Index place) {
+    return detail::first_element(table)[place];
+}
+
 // ------------------------------------------------------------------------------- bit by bit
 
 constexpr std::int64_t bit_and(std::int64_t a, std::int64_t b) {

@@ -1,0 +1,55 @@
+#include "passes/analyses/bool_words.hpp"
+
+#include "support/match.hpp"
+
+#include <algorithm>
+#include <vector>
+
+namespace rddlc::passes {
+namespace {
+
+constexpr std::int64_t few_objects = 32;
+
+// Depends on which object it is, or on something that a statement of the loop names.
+bool differs(const ir::Program& program, ir::NodeId id, const ir::Nest& nest) {
+    const ir::Node& node = program[id];
+    if (std::holds_alternative<ir::Local>(node.form)) return true;
+    if (const auto* index = std::get_if<ir::Index>(&node.form))
+        return std::ranges::find(nest.variables, index->variable) != nest.variables.end();
+    return std::ranges::any_of(ir::operands_of(node),
+                               [&](ir::NodeId operand) { return differs(program, operand, nest); });
+}
+
+}  // namespace
+
+bool are_many(const ir::Program& program, const ir::Nest& nest) {
+    std::int64_t count = 1;
+    for (const ir::VariableId variable : nest.variables) count *= program[variable].size;
+    return count > few_objects;
+}
+
+bool is_of_bools(const ir::Program& program, ir::NodeId id, const ir::Nest& nest,
+                 const std::function<bool(ir::NodeId)>& is_element) {
+    const auto are_of_bools = [&](const std::vector<ir::NodeId>& ids) {
+        return std::ranges::all_of(
+            ids, [&](ir::NodeId each) { return is_of_bools(program, each, nest, is_element); });
+    };
+    if (is_element && is_element(id)) return true;
+    const ir::Node& node = program[id];
+    if (node.type != ir::Scalar::Bool) return false;
+    if (!differs(program, id, nest)) return true;
+    return match(
+        node.form,
+        [&](const ir::Load& load) {
+            return load.indices.size() == nest.variables.size() &&
+                   ir::begins_with(program, load.indices, nest);
+        },
+        [](const ir::Element&) { return true; }, [](const ir::Local&) { return true; },
+        [&](const ir::Apply& apply) { return are_of_bools(apply.operands); },
+        [&](const ir::Select& select) {
+            return are_of_bools({select.condition, select.then_value, select.else_value});
+        },
+        [](const auto&) { return false; });
+}
+
+}  // namespace rddlc::passes

@@ -1,0 +1,140 @@
+#include "passes/lanes/separate_counts.hpp"
+
+#include "ir/nest.hpp"
+#include "ir/rewrite.hpp"
+#include "passes/analyses/bool_words.hpp"
+
+#include <algorithm>
+#include <cstdint>
+#include <iterator>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace rddlc::passes {
+namespace {
+
+constexpr std::int64_t bits_in_a_word = 64;
+// Of more objects, a loop that only counts has enough of them for its registers.
+constexpr std::int64_t most_counted = 16 * bits_in_a_word;
+// Registers look up bools in tables of so many (read_places.hpp).
+constexpr std::int64_t most_looked_up = 256;
+
+class CountSeparation {
+  public:
+    CountSeparation(ir::Program program, Report& report)
+        : program_(std::move(program)), report_(report), builder_(program_) {}
+
+    ir::Program run() && {
+        for (ir::Definition& definition : program_.step) {
+            name_ = program_[definition.target].name;
+            span_ = definition.span;
+            ir::Block result;
+            for (ir::Statement& statement : definition.body) {
+                if (auto* store = std::get_if<ir::Store>(&statement.form))
+                    store->value = with_counts(store->value, result);
+                result.push_back(std::move(statement));
+            }
+            definition.body = std::move(result);
+        }
+        name_ = "reward";
+        span_ = program_.reward.span;
+        program_.reward.value = with_counts(program_.reward.value, program_.reward.body);
+        return ir::collect_garbage(std::move(program_));
+    }
+
+  private:
+    // A value outside of loops. What is in a branch is not always evaluated.
+    ir::NodeId with_counts(ir::NodeId value, ir::Block& before) {
+        std::map<ir::NodeId, ir::NodeId> known;
+        return ir::replace_in(builder_, value, known,
+                              [&](ir::NodeId id) -> std::optional<ir::NodeId> {
+                                  if (std::holds_alternative<ir::Select>(program_[id].form))
+                                      return id;
+                                  if (!std::holds_alternative<ir::Reduce>(program_[id].form))
+                                      return std::nullopt;
+                                  return counted(id, before).value_or(id);
+                              });
+    }
+
+    std::optional<ir::NodeId> counted(ir::NodeId id, ir::Block& before) {
+        ir::Nest nest{{}, nullptr};
+        ir::NodeId term = id;
+        while (const auto* level = std::get_if<ir::Reduce>(&program_[term].form)) {
+            if (level->op != Reduction::Sum || level->bounds) return std::nullopt;
+            nest.variables.push_back(level->variable);
+            term = level->body;
+        }
+        return sum(term, nest, before);
+    }
+
+    // Of plus or minus bools; nothing if it is of something else.
+    std::optional<ir::NodeId> sum(ir::NodeId term, const ir::Nest& nest, ir::Block& before) {
+        if (program_[term].type != ir::Scalar::Int) return std::nullopt;
+        if (const auto* apply = std::get_if<ir::Apply>(&program_[term].form)) {
+            if (apply->op != Operator::Negate) return std::nullopt;
+            const auto positive = sum(apply->operands.front(), nest, before);
+            if (!positive) return std::nullopt;
+            return builder_.apply(Operator::Negate, {*positive});
+        }
+        const auto* convert = std::get_if<ir::Convert>(&program_[term].form);
+        if (!convert || !can_fill_words(convert->operand, nest)) return std::nullopt;
+        const ir::BufferId table = table_of(convert->operand, nest, before);
+        ir::NodeId total = builder_.constant(std::int64_t{0});
+        for (std::int64_t first = 0; first < program_[table].count(); first += bits_in_a_word) {
+            const ir::NodeId bits = builder_.bits(table, first);
+            total =
+                builder_.apply(Operator::Add, {total, builder_.apply(Operator::CountOnes, {bits})});
+        }
+        ++report_["sums that count words of bools"];
+        return total;
+    }
+
+    bool can_fill_words(ir::NodeId id, const ir::Nest& nest) const {
+        std::int64_t count = 1;
+        for (const ir::VariableId variable : nest.variables) count *= program_[variable].size;
+        return count <= most_counted && are_many(program_, nest) &&
+               is_of_bools(program_, id, nest,
+                           [&](ir::NodeId each) { return is_at_known_place(each); }) &&
+               ir::is_droppable(builder_.properties(id));
+    }
+    // Constants choose the element (read_places.hpp).
+    bool is_at_known_place(ir::NodeId id) const {
+        const auto* load = std::get_if<ir::Load>(&program_[id].form);
+        return load && program_[id].type == ir::Scalar::Bool &&
+               program_[load->buffer].count() <= most_looked_up &&
+               std::ranges::all_of(load->indices, [&](ir::NodeId index) {
+                   return builder_.properties(index).uniform;
+               });
+    }
+
+    ir::BufferId table_of(ir::NodeId id, const ir::Nest& nest, ir::Block& before) {
+        const ir::BufferId table = builder_.tables().scratch(name_ + "-bools", ir::Scalar::Bool, {},
+                                                             nest.variables, span_);
+        std::vector<ir::NodeId> indices;
+        for (const ir::VariableId variable : nest.variables)
+            indices.push_back(builder_.index(variable));
+        ir::Block fill;
+        fill.push_back({ir::Store{table, std::move(indices), id}});
+        ir::Block loop = ir::looped(std::move(fill), nest.variables);
+        auto& outermost = std::get<ir::Loop>(loop.front().form);
+        outermost.several_at_once = outermost.as_words = true;
+        std::ranges::move(loop, std::back_inserter(before));
+        return table;
+    }
+
+    ir::Program program_;
+    Report& report_;
+    ir::Builder builder_;
+    std::string name_;  // of what is computed
+    Span span_;
+};
+
+}  // namespace
+
+ir::Program separate_counts(ir::Program program, Report& report) {
+    return CountSeparation(std::move(program), report).run();
+}
+
+}  // namespace rddlc::passes
