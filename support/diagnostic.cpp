@@ -30,8 +30,14 @@ Diagnostic&& Diagnostic::note(Span place, std::string text) && {
     return std::move(*this);
 }
 
-Diagnostic&& Diagnostic::with_hint(std::string text) && {
-    hint = std::move(text);
+Diagnostic&& Diagnostic::with_hint(Hint chosen) && {
+    hint = std::move(chosen.text);
+    fix = std::move(chosen.fix);
+    return std::move(*this);
+}
+
+Diagnostic&& Diagnostic::fixed_by(Span place, std::string text) && {
+    fix.push_back({place, std::move(text)});
     return std::move(*this);
 }
 

@@ -5,6 +5,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "support/source.hpp"
@@ -28,16 +29,35 @@ struct Note {
     std::string message;
 };
 
+// Another text for a place; an empty place inserts.
+struct Replacement {
+    Span span;
+    std::string text;
+};
+
+// What to try after a diagnostic.
+struct Hint {
+    Hint(std::string words = {}, std::vector<Replacement> changes = {})
+        : text(std::move(words)), fix(std::move(changes)) {}
+    Hint(const char* words) : text(words) {}
+
+    std::string text;  // a whole clause; may be empty
+    // The changes that do it, all together, for editors; empty if the hint leaves a choice.
+    std::vector<Replacement> fix;
+};
+
 struct Diagnostic {
     Code code;
     std::optional<Span> span;  // absent for what has no place, such as a missing file
     std::string message;       // lower case, no full stop, names in single quotes
     std::vector<Note> notes = {};
     std::string hint = {};     // what to try, a whole clause; may be empty
+    std::vector<Replacement> fix = {};  // as in Hint; may be there without a hint in words
 
     // Chaining, so that a report reads as one sentence.
     Diagnostic&& note(Span span, std::string message) &&;
-    Diagnostic&& with_hint(std::string hint) &&;
+    Diagnostic&& with_hint(Hint hint) &&;
+    Diagnostic&& fixed_by(Span span, std::string text) &&;
 };
 
 struct DiagnosticOptions {

@@ -231,6 +231,11 @@ ordered_json to_json(const Diagnostic& diagnostic, const Diagnostics& diagnostic
         add_place(entry, note.span, sources);
     }
     if (!diagnostic.hint.empty()) object["hint"] = diagnostic.hint;
+    for (const Replacement& replacement : diagnostic.fix) {
+        ordered_json& entry = object["fix"].emplace_back();
+        add_place(entry, replacement.span, sources);
+        entry["text"] = replacement.text;
+    }
     return object;
 }
 

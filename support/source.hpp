@@ -25,6 +25,18 @@ struct Span {
 // The smallest span that covers both; they must be of the same file.
 Span cover(Span first, Span last);
 
+// Where text can be inserted before or behind a span.
+inline Span point_before(Span span) {
+    return {span.file, span.begin, span.begin};
+}
+inline Span point_behind(Span span) {
+    return {span.file, span.end, span.end};
+}
+// Of a span that is not empty.
+inline Span last_character(Span span) {
+    return {span.file, span.end - 1, span.end};
+}
+
 // 1-based; columns count UTF-8 code points, as editors do.
 struct Position {
     int line = 1;

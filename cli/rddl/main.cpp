@@ -42,7 +42,7 @@ Command rddl_command() {
         return success;
     };
     program.commands = {list_command(),  info_command(),   check_command(),    fmt_command(),
-                        run_command(),   render_command(), evaluate_command(), compare_command(),
+                        lsp_command(), run_command(),   render_command(), evaluate_command(), compare_command(),
                         train_command(), export_command(), plot_command(),     replay_command(),
                         solve_command(), serve_command(),  play_command(),     bench_command(),
                         verify_command()};

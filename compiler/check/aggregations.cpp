@@ -80,7 +80,7 @@ Typed check_body(Reduction op, Typed body, const ast::Name& name, Scope& scope) 
 }
 
 void report_unknown_aggregation(const ast::Name& name, Context& context) {
-    std::string hint = suggestion(context, name.text, reduction_names);
+    Hint hint = suggestion(context, name.text, name.span, reduction_names);
     if (function_named(name.text) && !reduction_named(name.text))
         hint = fmt::format("'{0}' is a function: '{0}[...]'", name.text);
     context.report(diagnose(unknown_aggregation, name.span,

@@ -199,12 +199,24 @@ void warn_of_ignored_non_fluents(const TopLevel& top, Context& context) {
 // True if there.
 template <class T>
 bool require_section(const Last<T>& last, std::string_view section, std::string_view block,
-                     Span block_span, std::string_view hint, Context& context) {
+                     Span block_span, Hint hint, Context& context) {
     if (last.node) return true;
     context.report(
         diagnose(missing_section, block_span, fmt::format("the {} has no '{}'", block, section))
-            .with_hint(std::string(hint)));
+            .with_hint(std::move(hint)));
     return false;
+}
+
+// "add 'horizon = 40;'", on a line of its own before the end of the block.
+Hint hint_to_add(std::string_view section, std::string_view why, Span block,
+                 const Context& context) {
+    const std::string_view text = context.sources.text(block);
+    const std::size_t closing = text.rfind('}');
+    const bool stands_alone =
+        text.substr(0, closing).find_last_not_of(" \t") == text.substr(0, closing).rfind('\n');
+    const auto at = static_cast<std::uint32_t>(block.begin + closing);
+    return {fmt::format("add '{}'{}", section, why),
+            {{{block.file, at, at}, fmt::format("{}    {}\n", stands_alone ? "" : "\n", section)}}};
 }
 
 void warn_of_other_domain(const Last<ast::DomainName>& named, const ast::Domain& domain,
@@ -213,7 +225,8 @@ void warn_of_other_domain(const Last<ast::DomainName>& named, const ast::Domain&
     context.report(diagnose(other_domain, named.node->name.span,
                             fmt::format("this is for domain '{}', but the domain is '{}'",
                                         named.node->name.text, domain.name.text))
-                       .note(domain.name.span, "the domain"));
+                       .note(domain.name.span, "the domain")
+                       .fixed_by(named.node->name.span, domain.name.text));
 }
 
 void warn_of_other_non_fluents(const Last<ast::NonFluentsName>& named, const ast::Name& taken,
@@ -222,7 +235,8 @@ void warn_of_other_non_fluents(const Last<ast::NonFluentsName>& named, const ast
     context.report(diagnose(other_non_fluents, named.node->name.span,
                             fmt::format("this names the non-fluents '{}', but they are '{}'",
                                         named.node->name.text, taken.text))
-                       .note(taken.span, "the non-fluents"));
+                       .note(taken.span, "the non-fluents")
+                       .fixed_by(named.node->name.span, taken.text));
 }
 
 void take_domain(const ast::Domain& domain, Blocks& blocks, Context& context) {
@@ -323,7 +337,9 @@ void take_non_fluents(const TopLevel& top, const InstanceSections& sections, Blo
                             "'objects { type : {a, b}; };'",
                             context);
             require_section(own.domain, "domain", "instance", instance->name.span,
-                            fmt::format("add 'domain = {};'", blocks.domain->name.text), context);
+                            hint_to_add(fmt::format("domain = {};", blocks.domain->name.text), "",
+                                        instance->span, context),
+                            context);
             blocks.objects = own.objects.node;
             blocks.non_fluents = own.non_fluents.node;
         });
@@ -332,10 +348,12 @@ void take_non_fluents(const TopLevel& top, const InstanceSections& sections, Blo
 void take_instance(const ast::Instance& instance, const TopLevel& top, Blocks& blocks,
                    Context& context) {
     const InstanceSections sections = choose_sections(instance.sections, context);
-    require_section(sections.horizon, "horizon", "instance", instance.name.span,
-                    "add 'horizon = 40;', the number of steps of an episode", context);
+    require_section(
+        sections.horizon, "horizon", "instance", instance.name.span,
+        hint_to_add("horizon = 40;", ", the number of steps of an episode", instance.span, context),
+        context);
     require_section(sections.discount, "discount", "instance", instance.name.span,
-                    "add 'discount = 1.0;'", context);
+                    hint_to_add("discount = 1.0;", "", instance.span, context), context);
     warn_of_other_domain(sections.domain, *blocks.domain, context);
     blocks.instance = &instance;
     blocks.init_state = sections.init_state.node;
@@ -378,11 +396,20 @@ void check_horizon(const ast::Horizon& horizon, Span span, Context& context) {
         });
 }
 
+// ".0" behind the number of 'discount = 1;'.
+std::vector<Replacement> added_point(Span section, const Context& context) {
+    const std::string_view text = context.sources.text(section);
+    const auto end =
+        static_cast<std::uint32_t>(section.begin + text.find_last_of("0123456789") + 1);
+    return {{{section.file, end, end}, ".0"}};
+}
+
 void check_discount(const ast::Discount& discount, Span span, Context& context) {
     const auto* whole = std::get_if<ast::Integer>(&discount.value);
     if (whole && context.standard == Standard::PyRddlGym)
         context.report(diagnose(extension_needed, span, "the discount is a number with a point")
-                           .with_hint(fmt::format("write {}.0; {}", whole->value, extension_hint)));
+                           .with_hint({fmt::format("write {}.0; {}", whole->value, extension_hint),
+                                       added_point(span, context)}));
     context.model.discount =
         whole ? static_cast<double>(whole->value) : std::get<ast::Real>(discount.value).value;
     if (context.model.discount > 1)

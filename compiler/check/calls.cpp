@@ -27,27 +27,35 @@ std::string argument_of(std::size_t index, std::size_t count, std::string_view n
 // Names that other languages use, and what to write instead.
 struct Substitute {
     std::string_view name, hint;
+    std::string_view instead = {};  // a function with the same arguments
 };
 constexpr std::array substitutes = {
     Substitute{"atan2", "use 'atan[y / x]' and distinguish the quadrants; --std=rddlc allows it"},
-    Substitute{"sign", "the sign is 'sgn[x]'"},
-    Substitute{"ceiling", "write 'ceil[x]'"},
+    Substitute{"sign", "the sign is 'sgn[x]'", "sgn"},
+    Substitute{"ceiling", "write 'ceil[x]'", "ceil"},
     Substitute{"trunc", "write 'sgn[x] * floor[abs[x]]'"},
     Substitute{"clip", "write 'min[max[x, low], high]'"},
-    Substitute{"power", "write 'pow[x, y]'"},
+    Substitute{"power", "write 'pow[x, y]'", "pow"},
     Substitute{"logarithm", "write 'ln[x]' or 'log[x, base]'"},
     Substitute{"log10", "write 'log[x, 10]'"},
     Substitute{"log2", "write 'log[x, 2]'"},
 };
 
-std::string hint_for_unknown(const std::string& name, const Context& context) {
+Hint hint_for(const Substitute& substitute, Span place) {
+    if (substitute.instead.empty()) return std::string(substitute.hint);
+    return {std::string(substitute.hint), {{place, std::string(substitute.instead)}}};
+}
+
+Hint hint_for_unknown(const ast::Name& function, Span whole, const Context& context) {
+    const std::string& name = function.text;
     for (const Substitute& substitute : substitutes)
-        if (substitute.name == name) return std::string(substitute.hint);
+        if (substitute.name == name) return hint_for(substitute, function.span);
     if (reduction_named(name))
         return fmt::format("an aggregation is written '{}_{{?x : type}} ...'", name);
     if (context.names.fluents.contains(name))
-        return fmt::format("the fluent's arguments take round brackets: '{}(...)'", name);
-    return suggestion(context, name, [&] {
+        return {fmt::format("the fluent's arguments take round brackets: '{}(...)'", name),
+                other_brackets(function.span, whole, "()", context)};
+    return suggestion(context, name, function.span, [&] {
         std::vector<std::string> names = function_names();
         std::erase_if(names, [&](const std::string& known) {
             return context.standard == Standard::PyRddlGym && is_extension(*function_named(known));
@@ -176,7 +184,7 @@ Typed check_call(const ast::Call& call, Span span, Scope& scope) {
     if (!is_known) {
         scope.context.report(diagnose(unknown_function, call.function.span,
                                       fmt::format("there is no function '{}'", name))
-                                 .with_hint(hint_for_unknown(name, scope.context)));
+                                 .with_hint(hint_for_unknown(call.function, span, scope.context)));
         return std::nullopt;
     }
     if (!check_call_arity(name, arity_of(*op), call.function, arguments.size(),

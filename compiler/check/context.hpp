@@ -80,8 +80,9 @@ std::vector<std::string> keys(const std::unordered_map<std::string, T>& map) {
 using Candidates = std::function<std::vector<std::string>()>;
 std::optional<std::string> name_meant(const Context& context, std::string_view name,
                                       const Candidates& candidates);
-// "did you mean 'rlevel'?" or nothing.
-std::string suggestion(const Context& context, std::string_view name, const Candidates& candidates);
+// "did you mean 'rlevel'?", with the change of `place`, which holds the name; or nothing.
+Hint suggestion(const Context& context, std::string_view name, Span place,
+                const Candidates& candidates);
 
 // "1 argument", "2 arguments"
 std::string counted(std::size_t count, std::string_view noun);
@@ -89,6 +90,16 @@ std::string counted(std::size_t count, std::string_view noun);
 std::string joined(const std::vector<std::string>& words, std::string_view last = "and");
 // "an action-fluent", "a state-fluent"
 std::string with_article(Role role);
+// The place of a name without the prime behind it.
+inline Span without_prime(Span name, bool primed) {
+    return {name.file, name.begin, name.end - (primed ? 1 : 0)};
+}
+// The mark behind a name, if nothing but blanks stands between.
+std::optional<Span> mark_behind(Span name, char mark, const Context& context);
+// Other brackets, such as "[]", for those of "name(...)", which end the place `whole`; nothing if they
+// are not there.
+std::vector<Replacement> other_brackets(Span name, Span whole, std::string_view brackets,
+                                        const Context& context);
 // The written name: a state-fluent's next value has a prime.
 std::string written_name(const model::Fluent& fluent, bool next);
 

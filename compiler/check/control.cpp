@@ -61,8 +61,8 @@ std::optional<std::vector<std::optional<std::size_t>>> match_labels(
                 diagnose(bad_label, labels[i].span,
                          fmt::format("'{}' is not a member of type '{}'", literal, type.name))
                     .note(type.span, "declared here")
-                    .with_hint(
-                        suggestion(context, literal, [&] { return as_literals(type.objects); })));
+                    .with_hint(suggestion(context, literal, labels[i].span,
+                                          [&] { return as_literals(type.objects); })));
             sound = false;
             continue;
         }
@@ -135,9 +135,10 @@ bool collect_labels(const ast::Switch& choice, std::vector<Label>& labels,
         }
         sound = false;
         const auto* bare = std::get_if<ast::Reference>(&label.node);
-        const std::string hint = bare && find(context.names.objects, bare->name.text)
-                                     ? fmt::format("write '@{}'", bare->name.text)
-                                     : "";
+        const bool is_object = bare && find(context.names.objects, bare->name.text);
+        const Hint hint = is_object ? Hint(fmt::format("write '@{}'", bare->name.text),
+                                           {{point_before(label.span), "@"}})
+                                    : Hint{};
         context.report(diagnose(bad_label, label.span, "a case is labelled with a literal '@...'")
                            .with_hint(hint));
     }

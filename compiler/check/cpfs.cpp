@@ -43,8 +43,9 @@ std::string name_of_cpf(const ast::Cpf& cpf) {
 // Checks the CPFs of the domain, or of the policy.
 class CpfChecker {
   public:
-    CpfChecker(Context& context, std::vector<model::Cpf>& cpfs, bool of_policy)
-        : context_(context), cpfs_(cpfs), of_policy_(of_policy) {}
+    // `keyword` is that of the section.
+    CpfChecker(Context& context, std::vector<model::Cpf>& cpfs, bool of_policy, Span keyword)
+        : context_(context), cpfs_(cpfs), of_policy_(of_policy), keyword_(keyword) {}
 
     void check(const ast::Cpf& cpf) {
         const model::FluentId* id = find(context_.names.fluents, cpf.name.text);
@@ -74,7 +75,8 @@ class CpfChecker {
                 diagnose(missing_cpf, is_for_others ? context_.model.policy->span : fluent.span,
                          fmt::format("{} '{}' has no CPF{}", name_of(fluent.role), fluent.name,
                                      of_policy_ ? " in the policy" : ""))
-                    .with_hint(fmt::format("define it in 'cpfs {{ ... }};': {} = ...", name)));
+                    .with_hint({fmt::format("define it in 'cpfs {{ ... }};': {} = ...", name),
+                                added_cpf(fluent)}));
         }
     }
 
@@ -85,6 +87,19 @@ class CpfChecker {
         const Role role = context_.fluent(id).role;
         if (!of_policy_) return role != Role::NonFluent && role != Role::Action;
         return context_.model.is_of_policy(id) ? role != Role::NonFluent : role == Role::Action;
+    }
+
+    // A state-fluent that keeps its value, at the beginning of the cpfs.
+    std::vector<Replacement> added_cpf(const model::Fluent& fluent) const {
+        if (fluent.role != Role::State || keyword_.end == 0) return {};
+        const auto open = mark_behind(keyword_, '{', context_);
+        if (!open) return {};
+        std::string variables;
+        for (std::size_t i = 0; i < fluent.parameters.size(); ++i)
+            variables += fmt::format("{}?x{}", i == 0 ? "" : ", ", i + 1);
+        if (!variables.empty()) variables = fmt::format("({})", variables);
+        return {{point_behind(*open),
+                 fmt::format("\n        {0}'{1} = {0}{1};", fluent.name, variables)}};
     }
 
     std::string_view why_no_cpf(model::FluentId id) const {
@@ -98,9 +113,10 @@ class CpfChecker {
         const auto meant =
             name_meant(context_, cpf.name.text, [&] { return keys(context_.names.fluents); });
         if (meant) meant_.insert(context_.names.fluents.at(*meant));
-        context_.report(diagnose(undeclared_cpf, cpf.name.span,
-                                 fmt::format("'{}' is not declared in 'pvariables'", cpf.name.text))
-                            .with_hint(hint_of_name(meant)));
+        context_.report(
+            diagnose(undeclared_cpf, cpf.name.span,
+                     fmt::format("'{}' is not declared in 'pvariables'", cpf.name.text))
+                .with_hint(hint_of_name(meant, without_prime(cpf.name.span, cpf.primed))));
     }
 
     // Whether a CPF may be written like this for this fluent.
@@ -121,8 +137,9 @@ class CpfChecker {
                                      "value '{0}''",
                                      fluent.name))
                     .note(fluent.span, "declared here")
-                    .with_hint(fmt::format("you forgot a prime: {}'{} = ...", fluent.name,
-                                           cpf.parameters.empty() ? "" : "(...)")));
+                    .with_hint({fmt::format("you forgot a prime: {}'{} = ...", fluent.name,
+                                            cpf.parameters.empty() ? "" : "(...)"),
+                                {{point_behind(cpf.name.span), "'"}}}));
             return false;
         }
         if (fluent.role != Role::State && cpf.primed) {
@@ -131,7 +148,8 @@ class CpfChecker {
                          fmt::format("'{}' is {}: only state-fluents have a next value",
                                      fluent.name, with_article(fluent.role)))
                     .note(fluent.span, "declared here")
-                    .with_hint(fmt::format("write '{}' without the prime", fluent.name)));
+                    .with_hint({fmt::format("write '{}' without the prime", fluent.name),
+                                {{cpf.name.span, fluent.name}}}));
             return false;
         }
         return true;
@@ -187,6 +205,7 @@ class CpfChecker {
     Context& context_;
     std::vector<model::Cpf>& cpfs_;
     bool of_policy_;
+    Span keyword_;
     std::unordered_map<model::FluentId, Span> defined_;  // where
     std::unordered_set<model::FluentId> meant_;          // by misspelled names
     std::vector<CpfUses> uses_;
@@ -196,14 +215,15 @@ class CpfChecker {
 
 std::vector<CpfUses> check_cpfs(const Blocks& blocks, Context& context) {
     if (!blocks.cpfs) return {};
-    CpfChecker checker(context, context.model.cpfs, false);
+    CpfChecker checker(context, context.model.cpfs, false, blocks.cpfs->keyword.span);
     for (const ast::Cpf& cpf : blocks.cpfs->definitions) checker.check(cpf);
     checker.report_missing();
     return std::move(checker).uses();
 }
 
 std::vector<CpfUses> check_policy_cpfs(const Blocks& blocks, Context& context) {
-    CpfChecker checker(context, context.model.policy->cpfs, true);
+    const Span keyword = blocks.policy_cpfs ? blocks.policy_cpfs->keyword.span : Span{};
+    CpfChecker checker(context, context.model.policy->cpfs, true, keyword);
     if (blocks.policy_cpfs)
         for (const ast::Cpf& cpf : blocks.policy_cpfs->definitions) checker.check(cpf);
     checker.report_missing();

@@ -41,8 +41,9 @@ std::optional<model::ValueType> resolve_range(const ast::Name& range, Context& c
     };
     context.report(
         diagnose(unknown_type, range.span, fmt::format("type '{}' is not declared", range.text))
-            .with_hint(meant.empty() ? suggestion(context, range.text, names)
-                                     : fmt::format("'{}' is written '{}'", range.text, meant)));
+            .with_hint(meant.empty() ? suggestion(context, range.text, range.span, names)
+                                     : Hint(fmt::format("'{}' is written '{}'", range.text, meant),
+                                            {{range.span, meant}})));
     return std::nullopt;
 }
 
@@ -55,7 +56,8 @@ void check_name(const ast::PVariable& declaration, Context& context) {
     if (declaration.primed)
         context.report(diagnose(illegal_fluent_name, declaration.name.span,
                                 fmt::format("'{}'' is declared with a prime", name))
-                           .with_hint("declare it without; its next value is written with one"));
+                           .with_hint({"declare it without; its next value is written with one",
+                                       {{declaration.name.span, name}}}));
     if (name.find("__") != std::string::npos)
         context.report(diagnose(illegal_fluent_name, declaration.name.span,
                                 fmt::format("'{}' contains '__'", name))
@@ -195,7 +197,8 @@ void declare_fluent(const ast::PVariable& declaration, Block block, Context& con
         context.report(
             diagnose(derived_is_interm, declaration.kind.span,
                      fmt::format("derived-fluent '{}' is treated as an interm-fluent", name))
-                .with_hint("declare it 'interm-fluent'"));
+                .with_hint(
+                    {"declare it 'interm-fluent'", {{declaration.kind.span, "interm-fluent"}}}));
     context.model.fluents.push_back(std::move(fluent));
 }
 

@@ -32,11 +32,13 @@ std::string as_subtraction(const std::string& name, const Context& context) {
 }
 
 // A call written with the wrong brackets, or a distribution in lower case.
-std::string hint_for_call(const std::string& name) {
-    if (function_named(name)) return fmt::format("functions take square brackets: '{}[...]'", name);
+Hint hint_for_call(const std::string& name, Span place, Span whole, const Context& context) {
+    if (function_named(name))
+        return {fmt::format("functions take square brackets: '{}[...]'", name),
+                other_brackets(place, whole, "[]", context)};
     if (reduction_named(name))
         return fmt::format("an aggregation is written '{}_{{?x : type}} ...'", name);
-    return "";
+    return {};
 }
 
 std::vector<std::string> candidates(const ast::Reference& reference, const Context& context) {
@@ -51,48 +53,50 @@ std::vector<std::string> candidates(const ast::Reference& reference, const Conte
     return names;
 }
 
+Hint hint_for_unknown_name(const ast::Reference& reference, Span whole, const Scope& scope) {
+    const Context& context = scope.context;
+    const std::string& name = reference.name.text;
+    const Span place = without_prime(reference.name.span, reference.primed);
+    if (Hint call = hint_for_call(name, place, whole, context); !call.text.empty()) return call;
+    if (Hint truth = hint_for_bool(name, place); !truth.text.empty()) return truth;
+    if (const std::string subtraction = as_subtraction(name, context); !subtraction.empty())
+        return {fmt::format("write '{}' with blanks: '{}' is one name", subtraction, name),
+                {{place, subtraction}}};
+    if (name == "Gaussian" || name == "gaussian" || name == "gauss")
+        return {"the distribution is 'Normal(mean, variance)'", {{place, "Normal"}}};
+    if (context.names.types.contains(name))
+        return fmt::format("'{}' is a type, and has no value", name);
+    Hint near = suggestion(context, name, place, [&] { return candidates(reference, context); });
+    if (!near.text.empty() || !scope.range || !reference.arguments.empty()) return near;
+    return fmt::format("the values of '{}' are {}", context.type(*scope.range).name,
+                       fmt::join(as_literals(context.type(*scope.range).objects), ", "));
+}
+
 }  // namespace
 
-std::string hint_for_bool(std::string_view name) {
-    if (name == "True" || name == "TRUE") return fmt::format("'{}' is written 'true'", name);
-    if (name == "False" || name == "FALSE") return fmt::format("'{}' is written 'false'", name);
-    return "";
+Hint hint_for_bool(std::string_view name, Span place) {
+    if (name == "True" || name == "TRUE")
+        return {fmt::format("'{}' is written 'true'", name), {{place, "true"}}};
+    if (name == "False" || name == "FALSE")
+        return {fmt::format("'{}' is written 'false'", name), {{place, "false"}}};
+    return {};
 }
 
-void report_unknown_name(const ast::Reference& reference, Scope& scope) {
-    Context& context = scope.context;
+void report_unknown_name(const ast::Reference& reference, Span whole, Scope& scope) {
     const std::string& name = reference.name.text;
-    const std::string subtraction = as_subtraction(name, context);
-    const std::string call = hint_for_call(name);
-    const std::string truth = hint_for_bool(name);
-    const bool is_call = !call.empty() && !reference.arguments.empty();
-    Diagnostic diagnostic{is_call ? round_brackets : unknown_name, reference.name.span,
-                          fmt::format("'{}' is not {}", name, is_call ? "a fluent" : "declared")};
-    if (!call.empty())
-        diagnostic.hint = call;
-    else if (!truth.empty())
-        diagnostic.hint = truth;
-    else if (!subtraction.empty())
-        diagnostic.hint =
-            fmt::format("write '{}' with blanks: '{}' is one name", subtraction, name);
-    else if (name == "Gaussian" || name == "gaussian" || name == "gauss")
-        diagnostic.hint = "the distribution is 'Normal(mean, variance)'";
-    else if (context.names.types.contains(name))
-        diagnostic.hint = fmt::format("'{}' is a type, and has no value", name);
-    else
-        diagnostic.hint = suggestion(context, name, [&] { return candidates(reference, context); });
-    if (diagnostic.hint.empty() && scope.range && reference.arguments.empty())
-        diagnostic.hint =
-            fmt::format("the values of '{}' are {}", context.type(*scope.range).name,
-                        fmt::join(as_literals(context.type(*scope.range).objects), ", "));
-    context.report(std::move(diagnostic));
+    const bool is_call =
+        !reference.arguments.empty() && (function_named(name) || reduction_named(name));
+    scope.context.report(
+        diagnose(is_call ? round_brackets : unknown_name, reference.name.span,
+                 fmt::format("'{}' is not {}", name, is_call ? "a fluent" : "declared"))
+            .with_hint(hint_for_unknown_name(reference, whole, scope)));
 }
 
-std::string suggestion_or_list(const Context& context, std::string_view name,
-                               const std::vector<std::string>& names) {
+Hint suggestion_or_list(const Context& context, std::string_view name, Span place,
+                        const std::vector<std::string>& names) {
     constexpr std::size_t most = 10;
-    std::string meant = suggestion(context, name, [&] { return names; });
-    if (!meant.empty() || names.empty()) return meant;
+    Hint meant = suggestion(context, name, place, [&] { return names; });
+    if (!meant.text.empty() || names.empty()) return meant;
     const auto end = names.begin() + static_cast<std::ptrdiff_t>(std::min(names.size(), most));
     return fmt::format("there {} {}{}", names.size() == 1 ? "is" : "are",
                        fmt::join(names.begin(), end, ", "),

@@ -179,6 +179,16 @@ bool is_meant_as_power(const BinaryPlace& place) {
            (binary && is_arithmetic(operator_of(binary->op)));
 }
 
+// The change is pow[x, 2] for x ^ 2. In a + x ^ 2 > b the parts on both sides are not those of '^'.
+Hint hint_for_power(const BinaryPlace& place, const Context& context) {
+    const bool is_one_term = !std::holds_alternative<ast::Binary>(place.left.node) &&
+                             !std::holds_alternative<ast::Unary>(place.left.node);
+    if (!is_one_term || !is_literal_number(without_groups(place.right))) return power_hint;
+    return {power_hint,
+            {{place.span, fmt::format("pow[{}, {}]", context.sources.text(place.left.span),
+                                      context.sources.text(place.right.span))}}};
+}
+
 // 'a ^ 2.0 > 1.0' is about bools, but a comparison of literals suggests another meaning.
 void warn_of_compared_literals(const BinaryPlace& place, Context& context) {
     const ast::Expr& inner = without_groups(place.right);
@@ -200,8 +210,8 @@ Typed check_lazy_logic(const BinaryPlace& place, Typed left, Typed right, Scope&
         return operand && (operand->type == model::int_type || operand->type == model::real_type);
     };
     if (!hint.empty() && is_int_or_real(left) && is_int_or_real(right)) {
-        scope.context.report(
-            diagnose(bool_needed, place.op_span, "'^' joins bools, found numbers").with_hint(hint));
+        scope.context.report(diagnose(bool_needed, place.op_span, "'^' joins bools, found numbers")
+                                 .with_hint(hint_for_power(place, scope.context)));
         return std::nullopt;
     }
     const bool swap = right_goes_first(place.right);

@@ -55,7 +55,8 @@ bool check_prime(const ast::Reference& reference, const model::Fluent& fluent, C
                             fmt::format("'{}' is {}: only state-fluents have a next value",
                                         fluent.name, with_article(fluent.role)))
                        .note(fluent.span, "declared here")
-                       .with_hint(fmt::format("write '{}' without the prime", fluent.name)));
+                       .with_hint({fmt::format("write '{}' without the prime", fluent.name),
+                                   {{last_character(reference.name.span), ""}}}));
     return false;
 }
 
@@ -101,7 +102,7 @@ Typed check_literal(const ast::Literal& literal, Span span, Scope& scope) {
         return check_object("@" + literal.name, *object, span, scope);
     scope.context.report(
         diagnose(unknown_literal, span, fmt::format("no type has the member '@{}'", literal.name))
-            .with_hint(suggestion_or_list(scope.context, "@" + literal.name,
+            .with_hint(suggestion_or_list(scope.context, "@" + literal.name, span,
                                           as_literals(enumerated_members(scope.context)))));
     return std::nullopt;
 }
@@ -111,7 +112,7 @@ std::optional<model::FluentId> check_fluent(const ast::Reference& reference,
     Context& context = scope.context;
     const model::FluentId* id = find(context.names.fluents, reference.name.text);
     if (!id) {
-        report_unknown_name(reference, scope);
+        report_unknown_name(reference, span, scope);
         return std::nullopt;
     }
     context.mentioned.insert(*id);

@@ -2,6 +2,7 @@
 
 #include "check/open_ends.hpp"
 #include "check/types.hpp"
+#include "support/suggestion.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -18,16 +19,12 @@ const Binding* find_binding(const Scope& scope, const std::string& name) {
     return found == scope.bindings.rend() ? nullptr : &*found;
 }
 
-Span last_character(Span span) {
-    return {span.file, span.end - 1, span.end};
-}
-
-std::string hint_for_unknown(const std::string& name, const Scope& scope) {
+Hint hint_for_unbound(const std::string& name, Span span, const Scope& scope) {
     std::vector<std::string> names;
     for (const Binding& binding : scope.bindings) names.push_back(binding.name);
     if (names.empty()) return "no variable is bound here";
     if (const auto near = name_meant(scope.context, name, [&] { return names; }))
-        return fmt::format("did you mean '?{}'?", *near);
+        return hint_of_name("?" + *near, span);
     constexpr std::size_t most_shown = 10;
     const bool all = names.size() <= most_shown;
     if (!all) names.resize(most_shown);
@@ -38,14 +35,14 @@ void report_unknown(const std::string& name, Span span, Scope& scope) {
     Diagnostic diagnostic{unknown_variable, span,
                           fmt::format("variable '?{}' is not bound here", name)};
     const auto ended = std::ranges::find(scope.ended, name, &EndedBinding::name);
-    if (ended != scope.ended.end()) {
-        diagnostic.notes.push_back(
-            {last_character(ended->span),
-             fmt::format("the '{}' that binds '?{}' ends here", ended->binder, name)});
-    } else {
-        diagnostic.hint = hint_for_unknown(name, scope);
+    if (ended == scope.ended.end()) {
+        scope.context.report(std::move(diagnostic).with_hint(hint_for_unbound(name, span, scope)));
+        return;
     }
-    scope.context.report(std::move(diagnostic));
+    scope.context.report(
+        std::move(diagnostic)
+            .note(last_character(ended->span),
+                  fmt::format("the '{}' that binds '?{}' ends here", ended->binder, name)));
 }
 
 }  // namespace

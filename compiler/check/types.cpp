@@ -93,7 +93,7 @@ void report_undeclared(const ast::Objects& objects, Context& context) {
             context.report(
                 diagnose(objects_of_unknown_type, list.type.span,
                          fmt::format("type '{}' is not declared in the domain", list.type.text))
-                    .with_hint(suggestion(context, list.type.text,
+                    .with_hint(suggestion(context, list.type.text, list.type.span,
                                           [&] { return keys(context.names.types); })));
 }
 
@@ -114,9 +114,10 @@ void declare_types(const Blocks& blocks, Context& context) {
 std::optional<model::TypeId> resolve_type(const ast::Name& name, Context& context) {
     if (const model::TypeId* id = find(context.names.types, name.text)) return *id;
     const bool primitive = name.text == "bool" || name.text == "int" || name.text == "real";
-    const std::string hint =
-        primitive ? "only object types and enumerated types have members to range over"
-                  : suggestion(context, name.text, [&] { return keys(context.names.types); });
+    const Hint hint =
+        primitive
+            ? "only object types and enumerated types have members to range over"
+            : suggestion(context, name.text, name.span, [&] { return keys(context.names.types); });
     const std::string message = primitive ? fmt::format("'{}' is not a type of objects", name.text)
                                           : fmt::format("type '{}' is not declared", name.text);
     context.report(diagnose(unknown_type, name.span, message).with_hint(hint));

@@ -48,8 +48,8 @@ std::string fluent_is(const model::Fluent& fluent, const Context& context) {
     return fmt::format("'{}' is {}", fluent.name, describe(context, fluent.range));
 }
 
-void report_value(Code code, Span span, const model::Fluent& fluent, std::string found,
-                  std::string hint, Context& context) {
+void report_value(Code code, Span span, const model::Fluent& fluent, std::string found, Hint hint,
+                  Context& context) {
     context.report(
         diagnose(code, span, fmt::format("{}, found {}", fluent_is(fluent, context), found))
             .note(fluent.span, "declared here")
@@ -67,6 +67,12 @@ std::optional<model::Value> cast_or_report(T value, std::string_view type, Span 
     return result;
 }
 
+// Without "@".
+Span name_of_symbol(const ast::Symbol& symbol, Span span) {
+    if (symbol.at_sign) ++span.begin;
+    return span;
+}
+
 std::optional<model::Value> object_value(const ast::Symbol& symbol, Span span,
                                          const model::Fluent& fluent, Code code, Context& context) {
     const Object* object = find(context.names.objects, symbol.name);
@@ -79,11 +85,12 @@ std::optional<model::Value> object_value(const ast::Symbol& symbol, Span span,
     const std::string found =
         object ? fmt::format("'{}' of type '{}'", symbol.name, context.type(object->type).name)
                : fmt::format("the unknown name '{}'", symbol.name);
-    std::string hint;
+    Hint hint;
     if (!object && fluent.range.kind == Kind::Object)
-        hint = suggestion_or_list(context, symbol.name, context.type(fluent.range.type).objects);
+        hint = suggestion_or_list(context, symbol.name, name_of_symbol(symbol, span),
+                                  context.type(fluent.range.type).objects);
     else if (!object)
-        hint = hint_for_bool(symbol.name);
+        hint = hint_for_bool(symbol.name, span);
     report_value(code, span, fluent, found, std::move(hint), context);
     return std::nullopt;
 }
@@ -187,7 +194,8 @@ class Assigner {
             context_.report(
                 diagnose(not_settable, assignment.name.span,
                          fmt::format("there is no {} '{}'", name_of(section.role), name))
-                    .with_hint(suggestion(context_, name, [&] { return names_of(section.role); })));
+                    .with_hint(suggestion(context_, name, assignment.name.span,
+                                          [&] { return names_of(section.role); })));
             return nullptr;
         }
         const model::Fluent& fluent = context_.fluent(*id);
@@ -248,13 +256,16 @@ class Assigner {
         const std::string found =
             object ? fmt::format("'{}' is of type '{}'", name, context_.type(object->type).name)
                    : fmt::format("there is no object '{}'", name);
-        context_.report(diagnose(wrong_grounding, assignment.argument_spans[i],
-                                 fmt::format("argument {} of '{}' is of type '{}', but {}", i + 1,
-                                             fluent.name, expected.name, found))
-                            .note(fluent.span, "declared here")
-                            .with_hint(object ? "" : suggestion(context_, name, [&] {
-                                return expected.objects;
-                            })));
+        context_.report(
+            diagnose(wrong_grounding, assignment.argument_spans[i],
+                     fmt::format("argument {} of '{}' is of type '{}', but {}", i + 1, fluent.name,
+                                 expected.name, found))
+                .note(fluent.span, "declared here")
+                .with_hint(object ? Hint{}
+                                  : suggestion(context_, name,
+                                               name_of_symbol(assignment.arguments[i],
+                                                              assignment.argument_spans[i]),
+                                               [&] { return expected.objects; })));
     }
 
     std::optional<model::Value> value_assigned(const ast::Assignment& assignment,

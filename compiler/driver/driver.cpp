@@ -123,6 +123,23 @@ bool may_stand_alone(const CompileOptions& options) {
     return options.domain_may_stand_alone && options.inputs.size() == 1;
 }
 
+// IR -> C++.
+void run_emit(Run& run) {
+    Compilation& result = run.result;
+    Diagnostics& diagnostics = result.diagnostics;
+    report_undefined_externals(*result.program, run.options, diagnostics);
+    report_large_constant_tables(*result.program, diagnostics);
+    if (run.options.real == RealType::Float)
+        refuse_float_reals(run.options, *result.program, diagnostics);
+    if (diagnostics.has_errors()) return;
+    result.text = run.measure(Stage::Emit, [&] {
+        return emit(*result.program, result.sources, emit_options(run.options),
+                    result.details ? &*result.details : nullptr);
+    });
+    result.declaration = emit_declaration(*result.program, emit_options(run.options));
+    run.show(Form::Cpp, [&] { return result.text; });
+}
+
 void run_stages(Run& run) {
     Compilation& result = run.result;
     Diagnostics& diagnostics = result.diagnostics;
@@ -196,18 +213,7 @@ void run_stages(Run& run) {
     run.show(Form::OptimisedIr, [&] { return both_printed(*result.program); });
     if (run.ends_after(Stage::Optimise)) return;
 
-    // IR -> C++.
-    report_undefined_externals(*result.program, run.options, diagnostics);
-    report_large_constant_tables(*result.program, diagnostics);
-    if (run.options.real == RealType::Float)
-        refuse_float_reals(run.options, *result.program, diagnostics);
-    if (diagnostics.has_errors()) return;
-    result.text = run.measure(Stage::Emit, [&] {
-        return emit(*result.program, result.sources, emit_options(run.options),
-                    result.details ? &*result.details : nullptr);
-    });
-    result.declaration = emit_declaration(*result.program, emit_options(run.options));
-    run.show(Form::Cpp, [&] { return result.text; });
+    run_emit(run);
     if (run.ends_after(Stage::Emit)) return;
 
     // C++ -> the output file, through the C++ compiler if it is a shared object.
@@ -253,6 +259,15 @@ Compilation compile(const CompileOptions& options) {
     Run run(options);
     run_stages(run);
     run.result.diagnostics.sort_by_position();
+    return std::move(run.result);
+}
+
+Compilation emit_compilation(Compilation optimised, const CompileOptions& options) {
+    Run run(options);
+    run.result.sources = std::move(optimised.sources);
+    run.result.program = std::move(optimised.program);
+    run.result.details = std::move(optimised.details);
+    run_emit(run);
     return std::move(run.result);
 }
 

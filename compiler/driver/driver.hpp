@@ -16,6 +16,7 @@
 #include <chrono>
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <optional>
 #include <set>
 #include <string>
@@ -39,6 +40,8 @@ struct CompileOptions {
     std::vector<std::filesystem::path> inputs;    // domain and instance, or one file with both
     std::optional<std::filesystem::path> policy;  // of which the policy block alone is taken
     std::string instance;                         // its name; empty: the last one
+    // Texts of inputs by their paths, to be taken instead of the files, such as those in an editor.
+    std::map<std::filesystem::path, std::string> texts;
     // .cpp, .hpp or .so; absent: nothing is written.
     std::optional<std::filesystem::path> output;
     // C++ headers that define the external functions.
@@ -61,7 +64,8 @@ struct CompileOptions {
     DiagnosticOptions diagnostics;
     Standard standard = Standard::PyRddlGym;
     PassOptions passes;
-    // Adds to what was written in the files before it is checked, such as the expressions of a scene.
+    // Adds to what was written in the files before it is checked, such as the expressions of a
+    // scene.
     std::function<void(ast::Program&, Sources&, Diagnostics&)> extend;
 };
 
@@ -90,6 +94,10 @@ struct Compilation {
 
 // Never throws for what users can do; std::logic_error is a mistake of the compiler itself.
 Compilation compile(const CompileOptions& options);
+
+// Goes on from one that stopped after the stage Optimise to the text, with the same options. Only
+// its sources, program and details are used.
+Compilation emit_compilation(Compilation optimised, const CompileOptions& options);
 
 // The names of all optimisations, in their order.
 std::vector<std::string> pass_names();

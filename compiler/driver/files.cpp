@@ -55,7 +55,9 @@ std::vector<FileId> read_inputs(const CompileOptions& options, Sources& sources,
     if (options.policy) inputs.push_back(*options.policy);
     std::vector<FileId> files;
     for (const fs::path& input : inputs) {
-        const auto file = sources.load(input);
+        const auto text = options.texts.find(input);
+        const auto file = text != options.texts.end() ? sources.add(input.string(), text->second)
+                                                      : sources.load(input);
         used.add(input);
         if (file) {
             files.push_back(*file);

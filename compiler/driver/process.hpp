@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cstddef>
 #include <optional>
+#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -21,10 +22,12 @@ struct ProcessResult {
 };
 
 // Looks command[0] up in PATH and waits for it, but no longer than `limit`; if we are killed, it
-// is, with all that it started. It reads nothing. `environment` holds variables, "LC_ALL=C", in
-// place of ours. Nothing, with errno set, if it does not start.
+// is, with all that it started. It also ends when `stop` is requested: then, and only where it can
+// be requested, Ctrl-C leaves it alone. It reads nothing. `environment` holds variables,
+// "LC_ALL=C", in place of ours. Nothing, with errno set, if it does not start.
 std::optional<ProcessResult> run_process(const std::vector<std::string>& command,
                                          const std::vector<std::string>& environment = {},
-                                         std::optional<std::chrono::seconds> limit = {});
+                                         std::optional<std::chrono::seconds> limit = {},
+                                         const std::stop_token& stop = {});
 
 }  // namespace rddlc

@@ -73,21 +73,23 @@ Diagnostic refused(const std::vector<fs::path>& extern_headers, const std::strin
 }
 
 // The messages are in English, so that they can be parsed.
-std::optional<ProcessResult> run_compiler(const std::vector<std::string>& command) {
-    return run_process(command, {"LC_ALL=C"});
+std::optional<ProcessResult> run_compiler(const std::vector<std::string>& command,
+                                          const std::stop_token& stop = {}) {
+    return run_process(command, {"LC_ALL=C"}, {}, stop);
 }
 
 // Runs beside this thread if the system has another one, else when the result is asked for. The
 // command is copied: if no thread starts, libstdc++ 12 moves from its arguments a second time.
-std::future<std::optional<ProcessResult>> start_compiler(const std::vector<std::string>& command) {
-    return std::async(run_compiler, command);
+std::future<std::optional<ProcessResult>> start_compiler(const std::vector<std::string>& command,
+                                                         const std::stop_token& stop = {}) {
+    return std::async(run_compiler, command, stop);
 }
 
 // The compiler and the common options of all its calls. Hidden functions are called without a
 // detour through a table of the linker.
-std::vector<std::string> compiler_command(Processors processors) {
+std::vector<std::string> compiler_command(Processors processors, const std::stop_token& stop = {}) {
     std::vector<std::string> command = cpp_compiler();
-    const std::vector<std::string> flags = simulator_flags(command);
+    const std::vector<std::string> flags = simulator_flags(command, stop);
     command.insert(command.end(), {"-std=c++20", "-fPIC", "-fvisibility=hidden"});
     command.insert(command.end(), flags.begin(), flags.end());
     const char* const level = processors == Processors::LikeThis ? processor_level() : nullptr;
@@ -130,20 +132,20 @@ bool succeeds(const std::optional<ProcessResult>& result) {
 // refuses one. The user's headers come before those of the runtime, so that these are not prepared.
 std::optional<ProcessResult> compile(const std::vector<std::string>& command,
                                      const std::optional<fs::path>& prepared,
-                                     bool has_extern_headers) {
-    if (!prepared) return run_compiler(command);
+                                     bool has_extern_headers, const std::stop_token& stop) {
+    if (!prepared) return run_compiler(command, stop);
     std::vector<std::string> linking = command;
     linking.insert(linking.end(), {"-DRDDL_LINKS_BATCHES", (*prepared / batches_name).string()});
     std::error_code ignored;
     if (!has_extern_headers && fs::exists(*prepared / precompiled_name, ignored)) {
         std::vector<std::string> including = linking;
         including.insert(including.end(), {"-include", (*prepared / header_name).string()});
-        auto result = run_compiler(including);
+        auto result = run_compiler(including, stop);
         if (!is_refused(result)) return result;
         fs::remove(*prepared / precompiled_name, ignored);
     }
-    auto result = run_compiler(linking);
-    return is_refused(result) ? run_compiler(command) : result;
+    auto result = run_compiler(linking, stop);
+    return is_refused(result) ? run_compiler(command, stop) : result;
 }
 
 #ifdef __x86_64__
@@ -264,19 +266,19 @@ std::optional<std::string> complaint_about_environment() {
 }
 
 std::vector<std::string> shared_object_command(const fs::path& source, const fs::path& output,
-                                               Processors processors) {
-    std::vector<std::string> command = compiler_command(processors);
+                                               Processors processors, const std::stop_token& stop) {
+    std::vector<std::string> command = compiler_command(processors, stop);
     command.insert(command.end(), {"-shared", "-DRDDL_ENTRY=rddl_simulator_entry", "-o",
                                    output.string(), source.string()});
     return command;
 }
 
-bool prepare_runtime(const fs::path& folder, RealType real) {
+bool prepare_runtime(const fs::path& folder, RealType real, const std::stop_token& stop) {
     const fs::path runtime = runtime_include_folder().value_or("") / "rddl";
     auto header =
-        start_compiler(header_command(runtime / "simulator.hpp", folder / precompiled_name));
+        start_compiler(header_command(runtime / "simulator.hpp", folder / precompiled_name), stop);
     const auto batches =
-        run_compiler(batches_command(runtime / "batches.cpp", folder / batches_name, real));
+        run_compiler(batches_command(runtime / "batches.cpp", folder / batches_name, real), stop);
     UsedFiles used;
     write_file(folder / header_name, "#include <rddl/simulator.hpp>\n", used);
     const auto header_result = header.get();
@@ -290,7 +292,7 @@ bool prepare_runtime(const fs::path& folder, RealType real) {
 
 bool build_shared_object(const fs::path& source, const fs::path& output, Processors processors,
                          const std::vector<fs::path>& extern_headers, Diagnostics& diagnostics,
-                         const std::optional<fs::path>& prepared) {
+                         const std::optional<fs::path>& prepared, const std::stop_token& stop) {
     if (const auto complaint = complaint_about_environment()) {
         diagnostics.report({no_cpp_compiler, {}, *complaint});
         return false;
@@ -306,7 +308,7 @@ bool build_shared_object(const fs::path& source, const fs::path& output, Process
     const std::vector<std::string> command = shared_object_command(source, output, processors);
     const auto result = processors == Processors::Any
                             ? compile_for_any(source, output)
-                            : compile(command, prepared, !extern_headers.empty());
+                            : compile(command, prepared, !extern_headers.empty(), stop);
     if (!result) {
         diagnostics.report(not_started(command.front(), errno));
         return false;

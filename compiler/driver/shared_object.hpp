@@ -6,6 +6,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -26,12 +27,15 @@ enum class Processors { Any, LikeThis };
 // The compiler and its arguments: $CXX (split at blanks) or c++.
 std::vector<std::string> shared_object_command(const std::filesystem::path& source,
                                                const std::filesystem::path& output,
-                                               Processors processors);
+                                               Processors processors,
+                                               const std::stop_token& stop = {});
 
 // Compiles into a folder what is the same for all simulators for processors like this one: the code
 // of batches with that type of reals (rddl/batches.cpp), which they can link, and, if the compiler
 // can do that, the headers that they include. False if there is no such code afterwards.
-bool prepare_runtime(const std::filesystem::path& folder, RealType real);
+// `stop` ends the compilers (run_process).
+bool prepare_runtime(const std::filesystem::path& folder, RealType real,
+                     const std::stop_token& stop = {});
 
 // An object for any processor of x86-64 holds the simulator for each instruction set; its entry
 // chooses when it is called. For those like this one, it is made with the files that
@@ -46,6 +50,7 @@ bool build_shared_object(const std::filesystem::path& source, const std::filesys
                          Processors processors,
                          const std::vector<std::filesystem::path>& extern_headers,
                          Diagnostics& diagnostics,
-                         const std::optional<std::filesystem::path>& prepared = {});
+                         const std::optional<std::filesystem::path>& prepared = {},
+                         const std::stop_token& stop = {});
 
 }  // namespace rddlc

@@ -92,7 +92,8 @@ int status_like(int status) {
 }
 
 // Runs in a process of our own, where nothing may be allocated.
-[[noreturn]] void watch(const Start& start, const sigset_t& signals, pid_t parent, int told) {
+[[noreturn]] void watch(const Start& start, const sigset_t& signals, Interrupts interrupts,
+                        pid_t parent, int told) {
 #ifdef __linux__
     ::prctl(PR_SET_PDEATHSIG, SIGTERM);
 #endif
@@ -109,6 +110,8 @@ int status_like(int status) {
     while (true) {
         int signal = 0;
         ::sigwait(&signals, &signal);
+        const bool is_of_terminal = signal != SIGCHLD && signal != SIGTERM;
+        if (is_of_terminal && interrupts == Interrupts::Ignored) continue;
         if (signal != SIGCHLD) {
             end_group(program);
             ::_exit(128 + signal);
@@ -131,7 +134,8 @@ int read_error(int descriptor) {
 }  // namespace
 
 pid_t start_watched(const std::vector<std::string>& command,
-                    const std::vector<std::string>& environment, int output) {
+                    const std::vector<std::string>& environment, int output,
+                    Interrupts interrupts) {
     std::array<int, 2> ends;  // to read from, to write to
     if (::pipe2(ends.data(), O_CLOEXEC) != 0) return -1;
     const Start start(command, environment, output);
@@ -140,7 +144,7 @@ pid_t start_watched(const std::vector<std::string>& command,
     const sigset_t signals = watched_signals();
     ::pthread_sigmask(SIG_BLOCK, &signals, nullptr);
     const pid_t process = ::fork();
-    if (process == 0) watch(start, signals, parent, ends[1]);
+    if (process == 0) watch(start, signals, interrupts, parent, ends[1]);
     int error = errno;
     ::pthread_sigmask(SIG_SETMASK, &start.mask, nullptr);
     ::close(ends[1]);

@@ -200,6 +200,11 @@ class Collector {
         draw(true);
     }
 
+    void describe(Scalar, const Interval& interval) {
+        draw(false);
+        properties_.range = Range{0, static_cast<double>(program_[interval.table].shape.back())};
+    }
+
     void describe(Scalar, const Fault&) {
         properties_.may_fault = true;
         properties_.uniform = false;
@@ -401,6 +406,7 @@ std::vector<NodeId> operands_of(const Node& node) {
         [&](const Sample& sample) { return with_place(sample.place, sample.parameters); },
         [&](const Discrete& discrete) { return with_place(discrete.place, discrete.weights); },
         [&](const DiscreteOver& discrete) { return with_place(discrete.place, {discrete.weight}); },
+        [&](const Interval& interval) { return with_place(interval.place, interval.row); },
         [](const Fault& fault) { return std::vector{fault.place.index}; });
 }
 
@@ -453,6 +459,7 @@ std::optional<BufferId> buffer_read_by(const Node& node) {
         node.form, [](const Load& load) { return std::optional(load.buffer); },
         [](const Search& search) { return std::optional(search.table); },
         [](const Bits& bits) { return std::optional(bits.buffer); },
+        [](const Interval& interval) { return std::optional(interval.table); },
         [](const auto&) { return std::optional<BufferId>(); });
 }
 
@@ -462,6 +469,7 @@ std::optional<Place> place_of(const Node& node) {
         [](const Sample& sample) { return std::optional(sample.place); },
         [](const Discrete& discrete) { return std::optional(discrete.place); },
         [](const DiscreteOver& discrete) { return std::optional(discrete.place); },
+        [](const Interval& interval) { return std::optional(interval.place); },
         [](const Fault& fault) { return std::optional(fault.place); },
         [](const auto&) { return std::optional<Place>(); });
 }

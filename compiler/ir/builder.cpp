@@ -90,6 +90,11 @@ class Key {
         add(form.variable);
         add(form.weight);
     }
+    void add(const Interval& form) {
+        add(form.place);
+        add(form.table);
+        add(form.row);
+    }
     void add(const Fault& form) { add(form.place); }
 
     std::vector<std::uint64_t> words_;
@@ -274,6 +279,10 @@ NodeId Builder::discrete_over(bool normalise, Place place, VariableId variable, 
     return intern({Scalar::Int, DiscreteOver{normalise, place, variable, weight}});
 }
 
+NodeId Builder::interval(Place place, BufferId table, std::vector<NodeId> row) {
+    return intern({Scalar::Int, Interval{place, table, std::move(row)}});
+}
+
 NodeId Builder::fault(Scalar type, Place place) {
     return intern({type, Fault{place}});
 }
@@ -299,6 +308,7 @@ NodeId Builder::rebuild(const Node& node) {
         [&](const DiscreteOver& form) {
             return discrete_over(form.normalise, form.place, form.variable, form.weight);
         },
+        [&](const Interval& form) { return interval(form.place, form.table, form.row); },
         [&](const Fault& form) { return fault(node.type, form.place); });
 }
 

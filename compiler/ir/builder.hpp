@@ -49,6 +49,7 @@ class Builder {
                   std::vector<NodeId> parameters);
     NodeId discrete(bool normalise, Place place, std::vector<NodeId> weights);
     NodeId discrete_over(bool normalise, Place place, VariableId variable, NodeId weight);
+    NodeId interval(Place place, BufferId table, std::vector<NodeId> row);
     NodeId fault(Scalar type, Place place);
 
     // The same form with other operands, folded again. Ids inside `node` are this program's.

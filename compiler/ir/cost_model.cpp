@@ -189,7 +189,14 @@ double own_cost(const Program& program, const Node& node) {
         },
         [](const Apply& apply) { return cost_of(apply.op); }, [](const Select&) { return 1.0; },
         [&](const Reduce&) { return repetitions(program, node); },
-        [](const Sample&) { return draw_cost; }, [](const Discrete&) { return draw_cost; },
+        [](const Sample&) { return draw_cost; },
+        [](const Discrete& discrete) {
+            return draw_cost + static_cast<double>(discrete.weights.size());
+        },
+        [&](const Interval& interval) {
+            const auto size = static_cast<double>(program[interval.table].shape.back());
+            return draw_cost + std::ceil(std::log2(size + 1));
+        },
         [&](const DiscreteOver&) { return draw_cost + repetitions(program, node); },
         [](const auto&) { return 0.0; });
 }

@@ -341,6 +341,10 @@ T Evaluator::value(NodeId id, Frame& frame) const {
                      if constexpr (is_int) return draw(form, frame);
                      own_mistake("a form of the IR has no value of this type");
                  },
+                 [&](const Interval& form) -> T {
+                     if constexpr (is_int) return draw(form, frame);
+                     own_mistake("a form of the IR has no value of this type");
+                 },
                  [&](const Fault& form) -> T {
                      return rddl::fault<T>(frame.context_, place(form.place, frame));
                  });
@@ -547,6 +551,30 @@ std::int64_t Evaluator::draw(const DiscreteOver& form, Frame& frame) const {
     return form.normalise
                ? rddl::sample::unnormalised_discrete_over(frame.context_, here, size, weight)
                : rddl::sample::discrete_over(frame.context_, here, size, weight);
+}
+
+std::int64_t Evaluator::draw(const Interval& form, Frame& frame) const {
+    const Buffer& table = (*program_)[form.table];
+    std::int64_t first = 0;
+    for (std::size_t d = 0; d < form.row.size(); ++d)
+        first = first * table.shape[d] + value<std::int64_t>(form.row[d], frame);
+    const std::int64_t size = table.shape.back();
+    first *= size;
+    const auto threshold = [&](std::int64_t i) {
+        return std::get<double>(table.values[first + i]);
+    };
+    const rddl::Place here = place(form.place, frame);
+    if (frame.outcomes_) {
+        std::vector<double> lengths;
+        for (std::int64_t i = 0; i < size; ++i)
+            lengths.push_back(threshold(i) - (i > 0 ? threshold(i - 1) : 0.0));
+        lengths.push_back(std::max(1.0 - threshold(size - 1), 0.0));
+        return frame.outcomes_->choose(here, std::move(lengths));
+    }
+    const double number = rddl::uniform_at(frame.context_, here);
+    std::int64_t interval = 0;
+    while (interval < size && threshold(interval) <= number) ++interval;
+    return interval;
 }
 
 template <class Weight>

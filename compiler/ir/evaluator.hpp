@@ -130,6 +130,7 @@ class Evaluator {
     T draw(const Sample& form, Frame& frame) const;
     std::int64_t draw(const Discrete& form, NodeId id, Frame& frame) const;
     std::int64_t draw(const DiscreteOver& form, Frame& frame) const;
+    std::int64_t draw(const Interval& form, Frame& frame) const;
     // One of a finite draw's outcomes; 0 where it faults.
     template <class Weight>
     std::int64_t choose(rddl::Place place, bool normalise, rddl::Index size, Weight&& weight,

@@ -193,6 +193,14 @@ struct DiscreteOver {  // a value of `variable`; Int
     NodeId weight;
     bool operator==(const DiscreteOver&) const = default;
 };
+// How many thresholds of a row are at most a uniform number in [0, 1), the place's first one. Int.
+// The rows of the constant table of reals, its last dimension, are sorted.
+struct Interval {
+    Place place;
+    BufferId table;
+    std::vector<NodeId> row;  // Int, one for each dimension but the last, in range by construction
+    bool operator==(const Interval&) const = default;
+};
 // Faults when evaluated, with Site::what as the message; its value is zero of Node::type.
 struct Fault {
     Place place;
@@ -202,7 +210,7 @@ struct Fault {
 struct Node {
     Scalar type;
     std::variant<Constant, Index, Load, Search, Bits, Local, Convert, Apply, Select, Reduce, Sample,
-                 Discrete, DiscreteOver, Fault>
+                 Discrete, DiscreteOver, Interval, Fault>
         form;
     bool operator==(const Node&) const = default;
 };

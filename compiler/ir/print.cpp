@@ -362,6 +362,9 @@ class Printer {
         return fmt::format("sample {}{}[{}]({})", discrete_name(form.normalise), at(form.place),
                            binding(form.variable), expression(form.weight));
     }
+    std::string text(const Interval& form, Scalar, Precedence) const {
+        return fmt::format("sample interval{}({})", at(form.place), element(form.table, form.row));
+    }
     std::string text(const Fault& form, Scalar, Precedence) const {
         return "fault" + at(form.place);
     }

@@ -66,6 +66,10 @@ void change_operands(Node& node, const Change& change) {
             change(discrete.weight);
             change(discrete.place.index);
         },
+        [&](Interval& interval) {
+            change_all(interval.row, change);
+            change(interval.place.index);
+        },
         [&](Fault& fault) { change(fault.place.index); });
 }
 
@@ -100,6 +104,7 @@ void change_buffers(Program& program, const std::function<void(BufferId&)>& chan
         if (auto* load = std::get_if<Load>(&node.form)) change(load->buffer);
         if (auto* search = std::get_if<Search>(&node.form)) change(search->table);
         if (auto* bits = std::get_if<Bits>(&node.form)) change(bits->buffer);
+        if (auto* interval = std::get_if<Interval>(&node.form)) change(interval->table);
     }
     for (Definition* definition : definitions_of(program)) {
         change(definition->target);

@@ -350,6 +350,22 @@ class Verifier {
         return result == Scalar::Int && type(form.weight) == Scalar::Real &&
                program_[form.variable].size > 0;
     }
+    bool fits(const Interval& form, Scalar result) const {
+        const Buffer& table = program_[form.table];
+        const auto is_int = [&](NodeId id) {
+            return type(id) == Scalar::Int;
+        };
+        return result == Scalar::Int && table.scalar == Scalar::Real &&
+               table.storage == Storage::Constant && form.row.size() + 1 == table.shape.size() &&
+               std::ranges::all_of(form.row, is_int) && has_sorted_rows(table);
+    }
+    static bool has_sorted_rows(const Buffer& table) {
+        for (std::int64_t i = 1; i < table.values.size(); ++i) {
+            const bool is_first = i % table.shape.back() == 0;
+            if (!is_first && table.values[i] < table.values[i - 1]) return false;
+        }
+        return true;
+    }
     bool fits(const Fault&, Scalar) const { return true; }
 
     bool are_indices(const Buffer& buffer, const std::vector<NodeId>& indices) const {

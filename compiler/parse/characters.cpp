@@ -137,17 +137,24 @@ std::string spoken(std::string_view characters) {
     return fmt::format("the invisible {}", fmt::join(names, ", "));
 }
 
-std::string hint_for_lookalike(std::string_view characters) {
-    std::string hint;
+Hint hint_for_lookalike(std::string_view characters, Span place) {
+    std::string hint, replaced;
+    bool all_known = true;
     for_each_character(characters, [&](const Character& character) {
-        if (!hint.empty()) return;
-        if (const Invisible* invisible = find_invisible(character.code_point))
-            hint = invisible->is_blank ? "replace it by an ordinary blank" : "remove it";
-        else if (const auto meant = meant_by(character))
-            hint = fmt::format("this is {}, {}; write '{}'", code_of(character.code_point),
-                               meant->kind, meant->character);
+        std::string words;
+        if (const Invisible* invisible = find_invisible(character.code_point)) {
+            words = invisible->is_blank ? "replace it by an ordinary blank" : "remove it";
+            replaced += invisible->is_blank ? " " : "";
+        } else if (const auto meant = meant_by(character)) {
+            words = fmt::format("this is {}, {}; write '{}'", code_of(character.code_point),
+                                meant->kind, meant->character);
+            replaced += meant->character;
+        }
+        all_known = all_known && !words.empty();
+        if (hint.empty()) hint = words;
     });
-    return hint;
+    if (!all_known || hint.empty()) return hint;
+    return {hint, {{place, replaced}}};
 }
 
 }  // namespace rddlc

@@ -1,6 +1,8 @@
 // Characters that are invisible, or that look like others.
 #pragma once
 
+#include "support/diagnostic.hpp"
+
 #include <string>
 #include <string_view>
 
@@ -10,6 +12,7 @@ namespace rddlc {
 std::string spoken(std::string_view characters);
 
 // A hint about the first of them that is invisible or looks like one of RDDL; else empty.
-std::string hint_for_lookalike(std::string_view characters);
+// The change is of the whole `place` of the characters.
+Hint hint_for_lookalike(std::string_view characters, Span place);
 
 }  // namespace rddlc

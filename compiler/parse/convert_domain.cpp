@@ -35,6 +35,35 @@ std::string attribute_hint(std::string_view kind) {
     return "observations have neither default nor level";
 }
 
+Span with_comma_before(const Conversion& conversion, Parser::AttributeContext& context) {
+    auto& declaration = static_cast<Parser::PvariableContext&>(*context.parent);
+    Span span = span_of(conversion, context);
+    for (antlr4::tree::TerminalNode* comma : declaration.COMMA()) {
+        const Span place = span_of(conversion.file, *comma->getSymbol());
+        if (place.end <= span_of(conversion, context).begin) span.begin = place.begin;
+    }
+    return span;
+}
+
+// The value of "nothing is done" in most domains; nothing for a type of the domain's own.
+std::string usual_default(std::string_view range) {
+    if (range == "bool") return "false";
+    if (range == "int") return "0";
+    return range == "real" ? "0.0" : "";
+}
+
+// Adds a default at the end of the declaration.
+std::vector<Replacement> added_default(const Conversion& conversion,
+                                       Parser::PvariableContext& context,
+                                       const ast::PVariable& pvariable) {
+    const std::string value = usual_default(pvariable.range.text);
+    if (value.empty()) return {};
+    const Span last = context.attribute().empty()
+                          ? pvariable.range.span
+                          : span_of(conversion, *context.attribute().back());
+    return {{{last.file, last.end, last.end}, ", default = " + value}};
+}
+
 // Fills `slot`, or says why not.
 void set_attribute(const Conversion& conversion, Parser::AttributeContext& context,
                    std::string_view kind, bool allowed, std::optional<ast::Constant>& slot) {
@@ -43,11 +72,12 @@ void set_attribute(const Conversion& conversion, Parser::AttributeContext& conte
     if (!allowed)
         conversion.diagnostics.report(
             Diagnostic{wrong_attribute, span, fmt::format("'{}' takes no {}", kind, key)}.with_hint(
-                attribute_hint(kind)));
+                {attribute_hint(kind), {{with_comma_before(conversion, context), ""}}}));
     else if (slot)
         conversion.diagnostics.report(
-            Diagnostic{wrong_attribute, span, fmt::format("a second {}", key)}.note(
-                slot->span, "first given here"));
+            Diagnostic{wrong_attribute, span, fmt::format("a second {}", key)}
+                .note(slot->span, "first given here")
+                .fixed_by(with_comma_before(conversion, context), ""));
     else
         slot = to_constant(conversion, *context.constant());
 }
@@ -66,8 +96,9 @@ void set_attributes(const Conversion& conversion, Parser::PvariableContext& cont
         conversion.diagnostics.report(
             Diagnostic{wrong_attribute, pvariable.span,
                        fmt::format("action-fluent '{}' needs a default", pvariable.name.text)}
-                .with_hint("the default is the action's value when the agent does nothing, as in "
-                           "{ action-fluent, bool, default = false }"));
+                .with_hint({"the default is the action's value when the agent does nothing, as in "
+                            "{ action-fluent, bool, default = false }",
+                            added_default(conversion, context, pvariable)}));
 }
 
 ast::PVariable to_pvariable(const Conversion& conversion, Parser::PvariableContext& context) {

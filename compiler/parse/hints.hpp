@@ -3,11 +3,9 @@
 
 #include "parse/syntax_error.hpp"
 
-#include <string>
-
 namespace rddlc {
 
-// A whole clause; empty when nothing comes to mind.
-std::string hint_for(const SyntaxError& error);
+// Empty when nothing comes to mind.
+Hint hint_for(const SyntaxError& error);
 
 }  // namespace rddlc

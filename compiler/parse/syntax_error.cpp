@@ -58,10 +58,12 @@ std::optional<Diagnostic> lacking_semicolon(const SyntaxError& error) {
     const bool ends_item = found == Parser::CLOSE_CURLY || found == Token::EOF ||
                            begins_line(error.tokens, error.index);
     if (!error.expects(Parser::SEMICOLON) || !ends_item || error.index == 0) return std::nullopt;
-    std::string hint = hint_for(error);
-    if (error.before(1)->getType() == Parser::CLOSE_CURLY && hint.empty())
+    const Span place = span_after_previous(error);
+    Hint hint = hint_for(error);
+    if (error.before(1)->getType() == Parser::CLOSE_CURLY && hint.text.empty())
         hint = "sections and declarations end in '};'";
-    return Diagnostic{missing_semicolon, span_after_previous(error),
+    if (hint.fix.empty()) hint.fix = {{place, ";"}};
+    return Diagnostic{missing_semicolon, place,
                       fmt::format("missing ';' before {}", describe_found(error.found()))}
         .with_hint(std::move(hint));
 }
@@ -73,6 +75,14 @@ bool ends_bracket(const SyntaxError& error, std::size_t opener) {
     return found == Parser::SEMICOLON || found == Token::EOF || is_closer(found) ||
            begins_section(error.tokens, error.index) || begins_block(error.tokens, error.index) ||
            (opener != Parser::OPEN_CURLY && begins_line(error.tokens, error.index));
+}
+
+// The hint; if it changes nothing, the missing bracket is the change.
+Hint hint_that_closes(const SyntaxError& error, std::size_t opener) {
+    Hint hint = hint_for(error);
+    if (hint.fix.empty() && error.index > 0)
+        hint.fix = {{span_after_previous(error), std::string(closing_text(opener))}};
+    return hint;
 }
 
 std::optional<Diagnostic> unclosed_bracket(const SyntaxError& error) {
@@ -87,7 +97,7 @@ std::optional<Diagnostic> unclosed_bracket(const SyntaxError& error) {
     return Diagnostic{unbalanced_bracket, span_of_found(error),
                       fmt::format("missing '{}' {}", closing_text(opener.getType()), place)}
         .note(span_of(error.file, opener), fmt::format("'{}' opened here", opener.getText()))
-        .with_hint(hint_for(error));
+        .with_hint(hint_that_closes(error, opener.getType()));
 }
 
 std::optional<Diagnostic> surplus_bracket(const SyntaxError& error) {
@@ -98,12 +108,14 @@ std::optional<Diagnostic> surplus_bracket(const SyntaxError& error) {
     // A ')' or ']' does not close the '{' of a section or block.
     if (!open || error.tokens[*open]->getType() == Parser::OPEN_CURLY)
         return Diagnostic{unbalanced_bracket, span_of_found(error),
-                          fmt::format("'{}' closes nothing", error.found().getText())};
+                          fmt::format("'{}' closes nothing", error.found().getText())}
+            .fixed_by(span_of_found(error), "");
     const Token& opener = *error.tokens[*open];
     return Diagnostic{
         unbalanced_bracket, span_of_found(error),
         fmt::format("'{}' does not close '{}'", error.found().getText(), opener.getText())}
-        .note(span_of(error.file, opener), fmt::format("'{}' opened here", opener.getText()));
+        .note(span_of(error.file, opener), fmt::format("'{}' opened here", opener.getText()))
+        .fixed_by(span_of_found(error), std::string(closing_text(opener.getType())));
 }
 
 std::optional<Diagnostic> reserved_name(const SyntaxError& error) {
@@ -181,8 +193,7 @@ Diagnostic describe(const SyntaxError& error) {
                           fmt::format("expected {}, found {}", describe_expected(error),
                                       describe_found(error.found()))};
     if (auto note = enclosing_construct(error)) diagnostic.notes.push_back(std::move(*note));
-    diagnostic.hint = hint_for(error);
-    return diagnostic;
+    return std::move(diagnostic).with_hint(hint_for(error));
 }
 
 std::optional<std::size_t> innermost_open(const std::vector<Token*>& tokens, std::size_t index) {
@@ -191,6 +202,16 @@ std::optional<std::size_t> innermost_open(const std::vector<Token*>& tokens, std
         const std::size_t type = tokens[index]->getType();
         if (is_closer(type)) ++closed;
         if (is_opener(type) && closed-- == 0) return index;
+    }
+    return std::nullopt;
+}
+
+std::optional<std::size_t> matching_close(const std::vector<Token*>& tokens, std::size_t open) {
+    std::size_t opened = 0;
+    for (std::size_t index = open; index < tokens.size(); ++index) {
+        const std::size_t type = tokens[index]->getType();
+        if (is_opener(type)) ++opened;
+        if (is_closer(type) && --opened == 0) return index;
     }
     return std::nullopt;
 }

@@ -30,6 +30,8 @@ Diagnostic describe(const SyntaxError& error);
 
 // The innermost bracket that is open before `tokens[index]`.
 std::optional<std::size_t> innermost_open(const std::vector<Token*>& tokens, std::size_t index);
+// The bracket that closes the one at `tokens[open]`.
+std::optional<std::size_t> matching_close(const std::vector<Token*>& tokens, std::size_t open);
 // The end of the file, from the last token on.
 std::size_t type_at(const std::vector<Token*>& tokens, std::size_t index);
 bool begins_line(const std::vector<Token*>& tokens, std::size_t index);

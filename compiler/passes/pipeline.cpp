@@ -12,6 +12,7 @@
 #include "passes/aggregations/search_intervals.hpp"
 #include "passes/aggregations/skip_zero_terms.hpp"
 #include "passes/aggregations/tabulate_counts.hpp"
+#include "passes/aggregations/tabulate_thresholds.hpp"
 #include "passes/arithmetic/compare_magnitudes.hpp"
 #include "passes/arithmetic/fast_math.hpp"
 #include "passes/arithmetic/find_ranges.hpp"
@@ -116,6 +117,12 @@ constexpr Pass in_order[] = {
      "an exists or forall of terms that are also counted compares the count",
      {"count_bools"},
      "it has made the counts"},
+    {"tabulate_thresholds",
+     Phase::Aggregations,
+     tabulate_thresholds,
+     "draws from weights that tables and small ints decide search a table",
+     {"compare_counts"},
+     "the weights may depend on a count; merge_draws sees draws of one form"},
     {"merge_draws",
      Phase::Aggregations,
      merge_draws,

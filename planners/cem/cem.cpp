@@ -13,7 +13,7 @@ namespace rddlc::planners {
 
 namespace {
 
-// Of plans, until something is better than doing nothing, where the user gives no other.
+// Steps of a plan, until something is better than doing nothing, if the user gives no horizon.
 constexpr std::int64_t first_horizon = 40;
 // Correlations of noise, of one sample after the other.
 constexpr std::array<double, 4> mixture{0, 0.5, 0.8, 0.95};
@@ -281,7 +281,7 @@ void Cem::keep_best(Memory& memory) {
     }
 }
 
-// Of a population that was not played to its end only those plans count that were kept before.
+// A population that was not played to its end counts only with the plans that were kept before.
 void Cem::rank_kept(const Memory& memory) {
     std::iota(order_.begin(), order_.end(), std::size_t{0});
     for (std::size_t c = 0; c < population_; ++c) {

@@ -29,7 +29,7 @@ class Cem : public Planner {
 
   private:
     enum class Origin { Kept, Policy, Noop, Middle, Sample };
-    // What is kept of an episode from one decision to the next.
+    // The memory of an episode, from one decision to the next.
     struct Memory {
         Memory(const solvers::ActionSpace& space, Spread spread) : distribution(space, spread) {}
         Distribution distribution;
@@ -80,19 +80,19 @@ class Cem : public Planner {
     std::vector<float> default_numbers_;
     std::vector<std::int32_t> default_indices_;
 
-    // Of the population.
+    // The population.
     std::vector<Plan> plans_;
     std::vector<Origin> origins_;
     std::vector<double> values_, errors_;
     std::vector<std::size_t> order_;  // the best first
     std::vector<std::byte> firsts_;   // action records of each plan's first step
-    // Of lanes.
+    // The lanes.
     std::vector<std::uint32_t> plan_of_lane_, compared_of_lane_;
     std::vector<std::uint64_t> streams_;
     std::vector<float> rows_;
     std::vector<std::byte> actions_;
     std::vector<std::uint8_t> by_policy_;
-    // Of a fit, and of a comparison.
+    // Buffers of a fit, and of a comparison.
     std::vector<const Plan*> fitted_;
     std::vector<double> weights_;
     std::vector<std::size_t> compared_;

@@ -28,7 +28,8 @@ void Cem::play_tail(const DecisionPoint& point, BudgetMeter& meter) {
     }
 }
 
-// The best plans, no-op, the policy and the middle, with stream that none of them was chosen by.
+// Compares the best plans, no-op, the policy and the middle, with random streams that none of them
+// was selected by.
 Cem::Choice Cem::compare(const DecisionPoint& point, RandomStream& stream, BudgetMeter& meter) {
     compared_.assign(order_.begin(), order_.begin() + static_cast<std::ptrdiff_t>(
                                                           std::min(most_compared, population_)));

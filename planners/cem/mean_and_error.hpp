@@ -11,7 +11,8 @@ struct MeanAndError {
     double mean, error;
 };
 
-// Of the numbers at(0), at(1), ...; the mean is -inf if one of them is not finite.
+// The mean and its error of the numbers at(0), at(1), ...; the mean is -inf if a number is not
+// finite.
 MeanAndError mean_and_error(std::size_t count, const auto& at) {
     double sum = 0, squares = 0;
     for (std::size_t k = 0; k < count; ++k) sum += at(k);

@@ -26,7 +26,7 @@ class Distribution {
   public:
     Distribution(const solvers::ActionSpace& space, Spread spread);
 
-    // That of a new episode.
+    // Begins a new episode.
     void restart(std::int64_t steps);
     // More steps; those that are added are as in a new episode.
     void extend(std::int64_t steps);
@@ -39,7 +39,8 @@ class Distribution {
     // Noise of two steps has this correlation.
     void draw(RandomStream& stream, double correlation, Plan& plan) const;
     void middle(Plan& plan) const;
-    // By `memory` it stays what it is; the rest is a fit to the plans, by weights whose sum is 1.
+    // Fits the distribution to the plans, by weights whose sum is 1. It keeps the share `memory` of
+    // its old parameters.
     void fit(std::span<const Plan* const> plans, std::span<const double> weights, double memory,
              bool keeps_deviations);
 

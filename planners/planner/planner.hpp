@@ -27,12 +27,12 @@ struct DecisionPoint {
     std::int64_t left;     // steps until the horizon, at least 1; no_end: there is none
     std::int64_t horizon;  // that batches of the planner take
     const solvers::Stops* stops = nullptr;
-    // What the base policy does here, which knows the episode from its beginning; NULL: there is
-    // none.
+    // The action of the base policy, which knows the episode from its beginning; NULL: there is no
+    // such policy.
     const std::byte* base_action = nullptr;
 };
 
-// What a decision was made by.
+// The reasons for a decision.
 struct Explanation {
     struct Candidate {
         std::string name;  // "mean", "noop", ...
@@ -58,13 +58,13 @@ class Planner {
                         Explanation* explanation) = 0;
 };
 
-// What every planner is made with.
+// The arguments of every planner's constructor.
 struct PlannerContext {
     const rddl_simulator& simulator;
     std::int64_t environments;  // that it acts in
     std::int64_t horizon;       // of batches: 0: the instance's; RDDL_NO_HORIZON: none
     std::int64_t memory_limit;
-    // That roll-outs follow; nothing: the user names none.
+    // The policy that roll-outs follow; nothing: the user names none.
     std::optional<solvers::Policy> base = {};
 };
 

@@ -18,7 +18,7 @@ inline bool is_planner(const std::string& policy) {
     return policy.starts_with(prefix);
 }
 
-// What is known of the planners, for help and completions.
+// The description of a planner, for help and completions.
 struct PlannerText {
     std::string name;  // "cem"
     std::string summary;

@@ -115,7 +115,7 @@ bool Rollout::try_all(const DecisionPoint& point, RandomStream& stream, BudgetMe
     for (std::size_t first = 0; first < starts_.size(); first += lanes) {
         const auto some =
             std::span(starts_).subspan(first, std::min(lanes, starts_.size() - first));
-        // The first values are better than none, though they are of fewer steps.
+        // The first values are better than no values, though they are of fewer steps.
         const bool is_first = candidates_.front().draws == 0 && starts_.size() <= lanes;
         if (!continuations_.run(point, some, policy_, meter) &&
             !(is_first && continuations_.depth() > 0))
@@ -127,7 +127,7 @@ bool Rollout::try_all(const DecisionPoint& point, RandomStream& stream, BudgetMe
         const double* const row = values_.data() + d * left_.size();
         for (std::size_t k = 0; k < left_.size(); ++k) {
             Candidate& candidate = candidates_[left_[k]];
-            // Both may be -inf, where the policy faults, too.
+            // Both may be -inf, if the policy also faults.
             const double difference =
                 row[k] == row[0] ? 0 : std::clamp(row[k] - row[0], -1e300, 1e300);
             candidate.sum += row[k];

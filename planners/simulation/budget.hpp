@@ -11,7 +11,7 @@
 
 namespace rddlc::planners {
 
-// The first one that is reached ends the search. Of none of them: default_seconds.
+// The first limit that is reached ends the search. Without any limit it is default_seconds.
 struct Budget {
     std::optional<double> seconds;
     std::optional<std::int64_t> steps;       // of all simulated environments together

@@ -1,5 +1,4 @@
-// What comes of an action, or of a state, if a policy plays on from there: many of them in one
-// batch.
+// Values of actions and states by simulation: a policy plays on from them, many times in one batch.
 #pragma once
 
 #include "planners/planner/planner.hpp"
@@ -29,11 +28,12 @@ class Continuations {
     Continuations(const rddl_simulator& simulator, std::int64_t lanes, std::int64_t horizon);
 
     std::size_t lanes() const { return static_cast<std::size_t>(futures_.count()); }
-    // At most `lanes` of them. False where time was up: then values are those of fewer steps.
+    // Plays at most `lanes` starts. False if time was up: then the values are those of fewer steps.
     bool run(const DecisionPoint& point, std::span<const Start> starts, BasePolicy& policy,
              BudgetMeter& meter);
 
-    // Of start k: the discounted sum of rewards, the first of them, and the state after it.
+    // The results of start k: the discounted sum of rewards, the first reward, and the state after
+    // it.
     double value(std::size_t k) const { return futures_.value(k); }
     // Whether its steps ended before its episode did, and the reward of the last step.
     bool is_cut(std::size_t k) const { return futures_.is_cut(k); }

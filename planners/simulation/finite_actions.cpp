@@ -18,7 +18,7 @@ double count_of_categories(const ActionSpace& space) {
     return count;
 }
 
-// Of the columns that picks change, how many sets of so many there are at most.
+// The greatest number of sets of that many columns that picks can change.
 double count_of_picks(const ActionSpace& space) {
     const auto changes = static_cast<double>(space.choices.size() - 1);
     double count = 1, sets = 1;

@@ -1,4 +1,5 @@
-// What may come of a state: copies of one environment, each with stream of its own, in one batch.
+// Possible futures of a state: copies of one environment in one batch, each with a random stream of
+// its own.
 #pragma once
 
 #include "solvers/batches/batch.hpp"
@@ -14,7 +15,7 @@ namespace rddlc::planners {
 
 class Futures {
   public:
-    // `horizon` as batches have it: 0: the instance's, RDDL_NO_HORIZON: none.
+    // `horizon` is as in batches: 0: the instance's, RDDL_NO_HORIZON: none.
     Futures(const rddl_simulator& simulator, std::int64_t count, std::int64_t horizon);
 
     // All begin where environment `place` of the batch stands; the k-th has the stream of
@@ -37,9 +38,9 @@ class Futures {
     bool any_running() const { return running_count_ > 0; }
     // So many environments made the last step.
     std::int64_t stepped() const { return stepped_; }
-    // Of the last step; 0 where the episode was over before.
+    // The reward of the last step; 0 if the episode was over before.
     double reward(std::size_t k) const { return rewards_[k]; }
-    // Of its own last step, and whether a limit was what ended it.
+    // The reward of the environment's own last step, and whether a limit ended it.
     double last_reward(std::size_t k) const { return last_rewards_[k]; }
     bool is_cut(std::size_t k) const { return cut_[k] != 0; }
     // The discounted sum since the beginning; -inf after a fault or a reward that is not finite.

@@ -23,14 +23,14 @@ class RandomStream {
               static_cast<std::uint64_t>(step) * increment)) {}
 
     std::uint64_t bits() { return scrambled(state_ += increment); }
-    // In [0, 1).
+    // A number in [0, 1).
     double unit() { return static_cast<double>(bits() >> 11) * 0x1p-53; }
-    // In 0 .. count - 1; the error is below count / 2^32.
+    // A number in 0 .. count - 1; the error is below count / 2^32.
     std::uint32_t below(std::uint32_t count) {
         return static_cast<std::uint32_t>(((bits() >> 32) * count) >> 32);
     }
-    // Of mean 0 and deviation 1, between -3.5 and 3.5: the sum of four uniform numbers. A search
-    // needs no tails, and this takes a tenth of the time of a normal number.
+    // A number with mean 0 and deviation 1, between -3.5 and 3.5: the sum of four uniform numbers.
+    // A search needs no tails, and this takes a tenth of the time of a normal number.
     float bell() {
         const std::uint64_t b = bits();
         const auto sum = static_cast<std::int32_t>((b & 0xFFFF) + ((b >> 16) & 0xFFFF) +

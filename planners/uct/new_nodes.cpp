@@ -87,7 +87,7 @@ bool Uct::stays_unchanged(const DecisionPoint& point, std::size_t n, RandomStrea
     return true;
 }
 
-// By continuation k, which began in that node.
+// The value that continuation k found, which began in that node.
 bool Uct::is_unchanged(NodeId id, std::size_t n, std::size_t k) const {
     return continuations_.first_reward(k) == unchanged_rewards_[n] &&
            std::memcmp(continuations_.first_state(k), tree_.state(id), state_size_) == 0;
@@ -114,7 +114,8 @@ void Uct::take_values(std::size_t first, std::size_t count) {
     }
 }
 
-// Of continuation k. Where it was cut off, the reward of its last step is taken to go on.
+// The value of continuation k. If it was cut off, the reward of its last step is assumed to
+// continue.
 double Uct::value_of(std::size_t k) const {
     const double value = continuations_.value(k);
     const std::int64_t made = starts_[k].depth;

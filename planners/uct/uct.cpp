@@ -195,7 +195,7 @@ bool Uct::step_trials(RandomStream& stream, std::int64_t depth, BudgetMeter& met
     return true;
 }
 
-// To the node where the trial's environment is now.
+// Follows the trial's environment to the node where it is now.
 void Uct::follow(std::size_t k, RandomStream& stream, std::int64_t depth) {
     Trial& trial = trials_[k];
     Trial::Hop& hop = trial.hops.back();

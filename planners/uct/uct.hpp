@@ -73,7 +73,7 @@ class Uct : public Planner {
     std::vector<std::byte> records_, states_;
     std::vector<std::uint8_t> legal_;
     std::vector<NodeId> new_nodes_;
-    // What is asked of continuations, and of which node and edge.
+    // The requests to continuations, and the node and edge of each.
     struct Asked {
         NodeId node;
         EdgeId edge;

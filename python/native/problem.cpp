@@ -40,8 +40,9 @@ std::string text_of(const Compilation& compilation) {
 }
 
 LoadedProblem load(const nb::object& domain, const nb::object& instance,
-                   const nb::object& repository, const std::string& instance_name, bool interpreted,
-                   const nb::object& externs, bool extended, bool details) {
+                   const nb::object& repository, const std::string& instance_name,
+                   const std::string& engine, const nb::object& externs, bool extended,
+                   bool details, const nb::object& on_compiling) {
     const std::string names[] = {path_of(domain), path_of(instance), path_of(repository)};
     const std::vector<std::string> headers = paths_of(externs);
     try {
@@ -50,7 +51,11 @@ LoadedProblem load(const nb::object& domain, const nb::object& instance,
         files.instance_name = instance_name;
         if (extended) files.standard = Standard::Rddlc;
         workbench::LoadOptions options;
-        options.engine = interpreted ? workbench::Engine::Interpreter : workbench::Engine::Compiled;
+        options.engine = workbench::engine_named(engine).value();
+        options.on_compiling = [&](const std::string& name) {
+            const nb::gil_scoped_acquire acquired;
+            on_compiling(name);
+        };
         options.externs = {headers.begin(), headers.end()};
         options.details = details;
         options.remembers = true;
@@ -77,6 +82,21 @@ nb::list files_as_text(const LoadedProblem& problem) {
     nb::list all;
     for (const auto& file : problem.files.inputs()) all.append(file.string());
     return all;
+}
+
+bool is_settled(const LoadedProblem& problem) {
+    if (!problem.background) return true;
+    problem.background->revive();
+    return problem.background->is_settled();
+}
+
+bool is_compiled(const LoadedProblem& problem) {
+    return problem.background ? problem.background->ready() != nullptr : problem.is_compiled;
+}
+
+void stop_building(const LoadedProblem& problem) {
+    const nb::gil_scoped_release released;
+    if (problem.background) problem.background->stop();
 }
 
 struct PythonErrors {
@@ -161,13 +181,17 @@ void add_problem(nb::module_& module) {
                      [](const LoadedProblem& problem) {
                          return std::string(problem.simulator->instruction_set);
                      })
+        .def_prop_ro("is_settled", is_settled,
+                     "Whether the engine stays as it is: nothing is built in the background.")
+        .def_prop_ro("is_compiled", is_compiled, "Whether new environments are compiled ones.")
+        .def("stop_building", stop_building, "Ends what is built in the background.")
         .def("describe", [](const LoadedProblem& problem) { return describe(*problem.simulator); })
         .def("constants", [](const LoadedProblem& problem, std::int32_t fluent) {
             return constants(*problem.simulator, fluent);
         });
     module.def("load", load, nb::arg("domain"), nb::arg("instance"), nb::arg("repository"),
-               nb::arg("instance_name"), nb::arg("interpreted"), nb::arg("externs"),
-               nb::arg("extended"), nb::arg("details"));
+               nb::arg("instance_name"), nb::arg("engine"), nb::arg("externs"), nb::arg("extended"),
+               nb::arg("details"), nb::arg("on_compiling"));
     module.def("problems_in", problems_in, nb::arg("repository"),
                "(name, instances, description) of each problem below a folder.");
     module.def("path_text", path_of, nb::arg("path"), "The path as a str; refuses what is none.");

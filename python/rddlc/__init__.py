@@ -62,7 +62,7 @@ def make(
     """A `gymnasium.Env` of a problem: two files, one file that holds both, a folder and an instance,
     their texts, a problem and an instance of rddlrepository, or a `Problem`.
 
-    engine: "compiled" (default) or "interpreter"; instance_name, externs, extended, details: see
+    engine: "auto" (default), "compiled" or "interpreter"; instance_name, externs, extended, details: see
         `Problem`.
     vectorized: keys are fluents and values arrays, instead of a key for each grounding.
     observations: "dict", or "flat": float32 (features,).

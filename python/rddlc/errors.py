@@ -1,4 +1,9 @@
-"""Errors that rddlc raises. All are `Error`s."""
+"""Errors that rddlc raises.
+
+Error: the base of all of them
+CompileError: a mistake in RDDL files, in the compiler's words: file, line, caret and hint
+ArgumentError: an argument that cannot be; also a `ValueError` and a `TypeError`
+"""
 
 from ._native import ArgumentError, CompileError, Error
 

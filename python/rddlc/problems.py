@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+import atexit
 import hashlib
 import os
 import shutil
+import sys
 import tempfile
+import time
 import warnings
+import weakref
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
@@ -20,7 +24,7 @@ from .errors import ArgumentError
 from .model import Model, model_of
 from .states import StateForm
 
-ENGINES = ("compiled", "interpreter")
+ENGINES = ("auto", "compiled", "interpreter")
 NO_HORIZON = -1  # of a batch; its 0 is the instance's
 
 
@@ -48,7 +52,7 @@ class Problem:
         instance: str | int | os.PathLike[str] | None = None,
         *,
         instance_name: str = "",
-        engine: str = "compiled",
+        engine: str = "auto",
         externs: Sequence[str | os.PathLike[str]] = (),
         extended: bool = False,
         details: bool = False,
@@ -57,7 +61,10 @@ class Problem:
         its instance, or a problem and an instance of rddlrepository.
 
         instance_name: the name of the instance to take, where the files hold several; else the last.
-        engine: "compiled" (kept in ~/.cache/rddlc) or "interpreter", which needs no C++ compiler.
+        engine: "auto" starts at once with the interpreter, and changes to the compiled simulator, in the
+            middle of an episode if need be, when it is ready in the background: the values are the
+            same to the last bit. "compiled" waits for it (kept in ~/.cache/rddlc), "interpreter" needs
+            no C++ compiler.
         externs: C++ headers that define external functions.
         extended: whether the extensions of docs/dialects.md are allowed.
         details: whether a compiled problem can be asked for interm-fluents; an interpreted one always
@@ -81,24 +88,40 @@ class Problem:
             domain,
             _name_of(instance),
             is_path=_native.is_path(domain),
-            interpreted=self.engine == "interpreter",
+            engine=self.engine,
             details=details,
         )
         self.name: str = self.simulator.name
+        if not self.simulator.is_settled:
+            _building.add(self)
 
     def _load(
-        self, domain: Any, instance: Any, *, is_path: bool, interpreted: bool, details: bool
+        self, domain: Any, instance: Any, *, is_path: bool, engine: str, details: bool
     ) -> _native.Simulator:
         return _native.load(
             domain,
             instance,
             repository="" if is_path else repository_folder(),
             instance_name=self._options["instance_name"],
-            interpreted=interpreted,
+            engine=engine,
             externs=list(self._options["externs"]),
             extended=self._options["extended"],
-            details=details or interpreted,
+            details=details or engine == "interpreter",
+            on_compiling=_tell_compiling,
         )
+
+    @property
+    def is_compiled(self) -> bool:
+        """Whether the compiled simulator is there: with engine="auto", later than the problem."""
+        return self.simulator.is_compiled
+
+    def wait(self, timeout: float | None = None) -> bool:
+        """Waits until what engine="auto" builds in the background is there, or has failed, or these
+        seconds are over. Returns whether the compiled simulator is there."""
+        end = None if timeout is None else time.monotonic() + timeout
+        while not self.simulator.is_settled and (end is None or time.monotonic() < end):
+            time.sleep(0.005)
+        return self.is_compiled
 
     @property
     def has_details(self) -> bool:
@@ -109,7 +132,7 @@ class Problem:
     def detailed(self) -> _native.Simulator:
         """The same problem, interpreted, with details."""
         domain, *instance = self.files
-        return self._load(domain, "".join(instance), is_path=True, interpreted=True, details=True)
+        return self._load(domain, "".join(instance), is_path=True, engine="interpreter", details=True)
 
     @cached_property
     def model(self) -> Model:
@@ -144,6 +167,21 @@ class Problem:
 
     def __repr__(self) -> str:
         return f"Problem({self.name!r}, engine={self.engine!r})"
+
+
+# Problems that are built in the background. A compiler must not outlive the process.
+_building: weakref.WeakSet[Problem] = weakref.WeakSet()
+
+
+@atexit.register
+def _stop_building() -> None:
+    for problem in list(_building):
+        problem.simulator.stop_building()
+
+
+def _tell_compiling(name: str) -> None:
+    """Says what a call waits for."""
+    print(f"rddlc: compiling {name}, once; engine='auto' does not wait", file=sys.stderr, flush=True)
 
 
 def _written(domain: Any, instance: Any) -> tuple[Any, Any]:
@@ -205,7 +243,7 @@ def _problems_in(folder: str) -> tuple[ListedProblem, ...]:
 
 
 def _engine_at_hand(engine: str) -> str:
-    if engine == "compiled" and not _has_cpp_compiler():
+    if engine != "interpreter" and not _has_cpp_compiler():
         return "interpreter"
     return engine
 

@@ -9,8 +9,8 @@ from collections.abc import Callable, Mapping, Sequence
 from copy import deepcopy
 from typing import Any
 
+import gymnasium
 import numpy as np
-from gymnasium.vector import AutoresetMode, VectorEnv
 from gymnasium.vector.utils import batch_space
 from numpy.typing import NDArray
 
@@ -26,7 +26,7 @@ from .arguments import (
     whole,
     whole_or_none,
 )
-from .errors import ArgumentError, EpisodeOver
+from .errors import ArgumentError, EpisodeOver, Error
 from .preconditions import check_preconditions
 from .problem_properties import ProblemProperties
 from .problems import Problem, batch_horizon
@@ -39,6 +39,7 @@ from .translation.masks import ActionMasks
 from .translation.named_values import state_from
 from .translation.protocols import ActionWriter
 from .translation.readers import dictionary_reader, observation_reader
+from .versions import HAS_VECTORS, AutoresetMode, VectorBase
 
 OBSERVATIONS = ("flat", "dict")
 ACTIONS = ("simplified", "box", "dict")
@@ -46,7 +47,7 @@ AUTORESET = {AutoresetMode.DISABLED: 0, AutoresetMode.NEXT_STEP: 1, AutoresetMod
 CAUSE_TEXTS = np.array(causes.TEXTS, object)
 
 
-class RDDLVectorEnv(ProblemProperties, VectorEnv[Any, Any, NDArray[Any]]):
+class RDDLVectorEnv(ProblemProperties, VectorBase):
     """Environments of one problem in the batch engine, with threads of its own.
 
     Environment i of reset(seed=s) has the episodes of one `rddlc.make` with the seed s + i.
@@ -77,6 +78,11 @@ class RDDLVectorEnv(ProblemProperties, VectorEnv[Any, Any, NDArray[Any]]):
         visualizer: str = "",
     ) -> None:
         """See `rddlc.make_vec`, which also loads the problem."""
+        if not HAS_VECTORS:
+            raise Error(
+                "vectors of environments need gymnasium 1.0 or later, and this is "
+                f"{gymnasium.__version__}; single ones do not: rddlc.make"
+            )
         self._forms = {
             "observations": one_of("observations", observations, OBSERVATIONS),
             "actions": one_of("actions", actions, ACTIONS),

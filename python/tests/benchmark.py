@@ -102,7 +102,7 @@ def seconds_of_make(words: list[str]) -> float:
     times = []
     for _ in range(5):
         begin = time.process_time()
-        rddlc.make(*words)
+        rddlc.make(*words, engine="compiled")
         times.append(time.process_time() - begin)
     return min(times)
 
@@ -112,7 +112,7 @@ def compare_dictionaries(names: list[str]) -> int:
     for listed in rddlc.problems():
         if names and listed.name not in names:
             continue
-        problem = rddlc.Problem(listed.name, listed.instances[0])
+        problem = rddlc.Problem(listed.name, listed.instances[0], engine="compiled")
         env = rddlc.make(problem)
         env.reset(seed=1)
         env.action_space.seed(1)
@@ -136,7 +136,7 @@ def main() -> int:
     if options.dictionaries:
         return compare_dictionaries(options.problem)
     options.problem = options.problem or ["MountainCar_ippc2023", "1"]
-    problem = rddlc.Problem(*options.problem)
+    problem = rddlc.Problem(*options.problem, engine="compiled")
     learning = {"observations": "flat", "actions": "simplified"}
     rates = rates_of(
         {

@@ -36,7 +36,7 @@ def of_envpool(name: str) -> Any:
 
 
 def of_rddlc(name: str) -> Any:
-    return rddlc.make_vec(name, 0, num_envs=ENVIRONMENTS, threads=1)
+    return rddlc.make_vec(name, 0, num_envs=ENVIRONMENTS, threads=1, engine="compiled")
 
 
 def actions_of(envs: Any) -> Any:

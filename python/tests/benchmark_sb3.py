@@ -30,7 +30,7 @@ class FlatPyRDDLGym(gymnasium.Env[Any, Any]):
     """Wraps a pyRDDLGym environment with numbers alone for a learner."""
 
     def __init__(self) -> None:
-        problem = rddlc.Problem(NAME, INSTANCE)
+        problem = rddlc.Problem(NAME, INSTANCE, engine="compiled")
         self.env = pyRDDLGym.make(*problem.files)
         flat = rddlc.make(problem, observations="flat", actions="simplified")
         self.observation_space, self.action_space = flat.observation_space, flat.action_space
@@ -59,7 +59,7 @@ def main() -> None:
     warnings.simplefilter("ignore")
     torch.set_num_threads(1)
     steps = int(sys.argv[1]) if len(sys.argv) > 1 else 100_000
-    problem = rddlc.Problem(NAME, INSTANCE)
+    problem = rddlc.Problem(NAME, INSTANCE, engine="compiled")
     forms = {"observations": "flat", "actions": "simplified"}
     kinds = {
         "pyRDDLGym": lambda: DummyVecEnv([FlatPyRDDLGym] * ENVIRONMENTS),

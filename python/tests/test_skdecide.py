@@ -136,6 +136,78 @@ class Environments(unittest.TestCase):
             self.assertEqual(movie.read_bytes()[:6], b"GIF89a")
 
 
+class TheirArguments(unittest.TestCase):
+    """Those of scikit-decide's own RDDLDomain, with which the notebooks make domains."""
+
+    def test_names_and_movies_are_theirs(self) -> None:
+        class SimplifiedActionRDDLEnv:
+            """As pyRDDLGym-rl's."""
+
+        class Visualizer:
+            """As pyRDDLGym's."""
+
+        problem = example("mountain_car").problem
+        with tempfile.TemporaryDirectory() as folder:
+            domain = RDDLDomain(
+                rddl_domain=problem.files[0],
+                rddl_instance=problem.files[1],
+                base_class=SimplifiedActionRDDLEnv,
+                visualizer=Visualizer,
+                display_with_pygame=False,
+                display_within_jupyter=True,
+                movie_name="car",
+                movie_dir=folder,
+                max_frames=7,
+            )
+            self.assertEqual(domain.get_action_space().unwrapped().shape, (1,))
+            domain.reset()
+            for _ in range(7):
+                self.assertEqual(list(Path(folder).rglob("*.gif")), [])
+                domain.step(np.array([0.5], np.float32))
+            movies = list(Path(folder, "car").glob("car_*.gif"))
+            self.assertEqual(len(movies), 1)
+            self.assertEqual(movies[0].read_bytes()[:6], b"GIF89a")
+            flat = RDDLDomainSimplifiedSpaces(
+                rddl_domain=problem.files[0],
+                rddl_instance=problem.files[1],
+                base_class=SimplifiedActionRDDLEnv,
+            )
+            self.assertEqual(flat.reset().shape, (2,))
+
+    @unittest.skipIf(find_spec("stable_baselines3") is None, "Stable-Baselines3 is not installed")
+    def test_its_stable_baseline_learns(self) -> None:
+        from skdecide.hub.solver.stable_baselines import StableBaseline
+        from skdecide.utils import rollout
+        from stable_baselines3 import PPO
+
+        problem = example("mountain_car").problem
+        for domain, policy in (
+            (partial(RDDLDomainRL, problem), "MultiInputPolicy"),
+            (partial(RDDLDomainRL, problem, observations="flat"), "MlpPolicy"),
+        ):
+            with StableBaseline(
+                domain_factory=domain,
+                algo_class=PPO,
+                baselines_policy=policy,
+                learn_config={"total_timesteps": 256},
+                n_steps=128,
+                verbose=0,
+            ) as solver:
+                solver.solve()
+                rollout(domain(), solver, max_steps=20, verbose=False, render=False)
+
+    @unittest.skipIf(find_spec("ray") is None, "RLlib is not installed")
+    def test_its_rllib_learns(self) -> None:
+        from ray.rllib.algorithms.ppo import PPO
+        from skdecide.hub.solver.ray_rllib import RayRLlib
+        from skdecide.utils import rollout
+
+        domain = partial(RDDLDomainRL, example("mountain_car").problem, observations="flat")
+        with RayRLlib(domain_factory=domain, algo_class=PPO, train_iterations=1) as solver:
+            solver.solve()
+            rollout(domain(), solver, max_steps=20, verbose=False, render=False)
+
+
 class Planners(unittest.TestCase):
     def test_mcts_plans_along_the_road(self) -> None:
         problem = problem_of_text(SURE)
@@ -207,7 +279,7 @@ class Planners(unittest.TestCase):
     def test_a_wrong_bound_of_rewards_is_told(self) -> None:
         domain = RDDLPlanning(problem_of_text(SURE))
         state = domain.transitions.start()
-        with self.assertRaisesRegex(rddlc.Error, "earns 8: say most_reward=8"):
+        with self.assertRaisesRegex(rddlc.Error, "reward 8: say most_reward=8"):
             for _ in range(3):
                 state = domain.transitions.outcomes(state, number_of(domain, "ahead"))[0].state
             domain.get_transition_value(state, number_of(domain, "leave"))

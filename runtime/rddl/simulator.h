@@ -408,6 +408,20 @@ struct rddl_simulator {
      * exist. */
     int64_t (*grounding_name)(const rddl_simulator*, int32_t fluent, int64_t grounding, char* text,
                               size_t size);
+
+    /* ---- snapshots, which the first simulators of version 3 lack: struct_size shows that */
+
+    /* Bytes of the snapshot of an environment. */
+    int64_t (*snapshot_size)(const rddl_simulator*);
+    /* Writes environments [begin, begin + count) with their episodes and random numbers, a snapshot
+     * for each. */
+    rddl_error (*get_snapshots)(const rddl_batch*, int64_t begin, int64_t count, void* snapshots);
+    /* Makes environments [begin, begin + count) copies of those of the snapshots, as
+     * copy_environments does. They may come from a batch of any simulator of the problem (with the
+     * same fingerprint) on the same kind of machine, made by the same version of rddlc, in whatever
+     * engine; others are refused, except that bytes which are no snapshots at all are not
+     * recognised for sure. */
+    rddl_error (*set_snapshots)(rddl_batch*, int64_t begin, int64_t count, const void* snapshots);
 };
 
 /* What a shared object exports under the name "rddl_simulator_entry". */

@@ -66,7 +66,7 @@ INSTANTIATE_TEST_SUITE_P(
         Misuse{"run domain.rddl instance.rddl --seed 1 --seed 2",
                "--seed is given twice: '1' and '2'"},
         Misuse{"run domain.rddl instance.rddl --engine compield",
-               "--engine: 'compield' is not one of compiled, interpreter; did you "
+               "--engine: 'compield' is not one of auto, compiled, interpreter; did you "
                "mean 'compiled'?"},
         Misuse{"verify domain.rddl instance.rddl --lanes 1,x",
                "--lanes: 'x' is not one of 1, 8, 16, 32, 64\n"},

@@ -3,7 +3,8 @@
 * a block without a language, or with an unknown one (CONTRIBUTING.md lists them); pages of
   diagnostics may hold pieces of RDDL without one, but no commands, which would not be run;
 * a command of rddl, or an option of rddlc or rddl, that does not exist, in blocks and in `code`;
-* a link to a file, or to a heading, that is not there.
+* a link to a file, or to a heading, that is not there;
+* a page of docs/ that the index, docs/README.md, does not list.
 
     check_text.py --bin build/bin
 """
@@ -18,7 +19,7 @@ from pathlib import Path
 from pages import COMMAND, PRINTED, ROOT, RUN, blocks, pages, pages_of_diagnostics
 
 COMMANDS = "sh"
-LANGUAGES = {RUN, PRINTED, COMMANDS, "rddl", "c++", "c", "cmake", "python", "ebnf", "json", "mermaid"}
+LANGUAGES = {RUN, PRINTED, COMMANDS, "rddl", "c++", "c", "cmake", "python", "ebnf", "json", "lua", "elisp", "toml", "mermaid"}
 
 CODE = re.compile(r"`([^`\n]+)`")
 LINK = re.compile(r"\]\(([^)\s]+)\)")
@@ -135,6 +136,13 @@ def complaints_about_links(page: Path) -> list[str]:
     return found
 
 
+def complaints_about_the_index() -> list[str]:
+    index = ROOT / "docs/README.md"
+    listed = {(index.parent / target.partition("#")[0]).resolve() for target in LINK.findall(index.read_text())}
+    return [f"docs/README.md: there is no row for {page.relative_to(ROOT)}"
+            for page in pages() if page.parent == index.parent and page not in listed | {index}]
+
+
 def main() -> int:
     parser = argparse.ArgumentParser()
     parser.add_argument("--bin", type=Path, default=ROOT / "build/bin", help="folder of rddlc and rddl")
@@ -146,6 +154,7 @@ def main() -> int:
         found += complaints_about_hidden_commands(page) + complaints_about_calls(page, programs)
     for page in pages_with_links():
         found += complaints_about_links(page)
+    found += complaints_about_the_index()
     print("\n".join(found))
     looked_at = sum(len(calls(page)) for page in pages())
     print(f"{len(pages_with_links())} pages, {looked_at} pieces of code, {len(found)} complaints")

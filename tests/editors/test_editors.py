@@ -148,7 +148,7 @@ class Extension(unittest.TestCase):
         self.assertNotIn("[E", first[pattern["message"]])
 
     @unittest.skipUnless(shutil.which("node"), "there is no node")
-    def test_the_code_formats_and_checks(self):
+    def test_the_code_speaks_to_the_server(self):
         done = subprocess.run(["node", Path(__file__).parent / "run_extension.js", EXTENSION, BIN / "rddl"],
                               stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
         self.assertEqual((done.returncode, done.stdout.decode()), (0, "ok\n"))

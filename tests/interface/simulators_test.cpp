@@ -1,4 +1,5 @@
-// The same answers from a linked, a loaded and an interpreted simulator.
+// The same answers from a linked, a loaded and an interpreted simulator, and from one that changes
+// between the last two.
 #include "engines/load_simulator.hpp"
 #include "network.h"
 #include "reservoir.h"
@@ -30,12 +31,13 @@ Simulator load(const std::string& name, Engine engine, bool details = true) {
     return load_problem(files, options).simulator;
 }
 
-// All three, by what they are.
+// All of them, by what they are.
 std::map<std::string, Simulator> simulators_of(const std::string& name,
                                                const rddl_simulator* linked) {
     return {{"linked", Simulator(linked, [](const rddl_simulator*) {})},
             {"loaded", load(name, Engine::Compiled)},
-            {"interpreted", load(name, Engine::Interpreter)}};
+            {"interpreted", load(name, Engine::Interpreter)},
+            {"auto", load(name, Engine::Auto)}};
 }
 const std::map<std::string, Simulator>& networks() {
     static const auto all = simulators_of("network", rddl_simulator_network_network_1());

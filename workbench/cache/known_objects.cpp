@@ -17,6 +17,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <sstream>
+#include <utility>
 #include <vector>
 
 namespace rddlc::workbench {
@@ -57,7 +58,10 @@ std::string value_of(const char* variable) {
 // Finds a program on PATH, behind all links.
 std::optional<fs::path> find_program(const std::string& name) {
     std::error_code missing;
-    if (name.find('/') != std::string::npos) return fs::canonical(name, missing);
+    if (name.find('/') != std::string::npos) {
+        fs::path file = fs::canonical(name, missing);
+        return missing ? std::nullopt : std::optional(std::move(file));
+    }
     std::istringstream folders(value_of("PATH"));
     for (std::string folder; std::getline(folders, folder, ':');) {
         const fs::path file = fs::canonical(fs::path(folder) / name, missing);
@@ -71,6 +75,10 @@ fs::path file_of(const std::string& key) {
 }
 
 }  // namespace
+
+bool is_compiler_there() {
+    return find_program(cpp_compiler().front()).has_value();
+}
 
 std::optional<std::string> key_of_files(const std::vector<fs::path>& files,
                                         const std::string& options) {

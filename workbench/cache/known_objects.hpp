@@ -9,6 +9,9 @@
 
 namespace rddlc::workbench {
 
+// Whether the C++ compiler is a program in PATH.
+bool is_compiler_there();
+
 // A key for all that an object depends on: the texts and names of the files, `options`, this very
 // compiler, the runtime's headers, the C++ compiler (these three by place, size and time) and the
 // kind of processor. Nothing if there is no C++ compiler, or a file cannot be read.

@@ -5,7 +5,9 @@
 #include "ir/ir.hpp"
 
 #include <filesystem>
+#include <functional>
 #include <optional>
+#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -20,6 +22,11 @@ struct CacheOptions {
     // The reals of the batches that the text links, which are the same for all simulators; nothing
     // if it links no batches.
     std::optional<RealType> linked_batches = std::nullopt;
+    // Called with `what` before something is compiled; empty: a terminal shows it.
+    std::function<void(const std::string&)> on_begin = {};
+    // A build in the background can be stopped: compilers end, and nothing is left. Only some
+    // of these run at a time, and errors are reported by the exception alone.
+    std::stop_token stop = {};
 };
 
 struct CachedObject {
@@ -28,7 +35,8 @@ struct CachedObject {
 };
 
 // Fails if there is no C++ compiler or no folder for it (cache_folder.hpp); throws Diagnosed if the
-// compiler refuses the user's headers.
+// compiler refuses the user's headers. A process that ends meanwhile leaves no part of an object.
+// Of several that want the same object, one makes it.
 CachedObject cached_object(const std::string& text, const CacheOptions& options);
 
 }  // namespace rddlc::workbench

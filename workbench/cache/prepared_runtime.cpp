@@ -38,14 +38,14 @@ std::string runtime_text() {
 }
 
 // The version text of a command's compiler: its words before the first option are asked.
-std::string compiler_version(const std::vector<std::string>& command) {
+std::string compiler_version(const std::vector<std::string>& command, const std::stop_token& stop) {
     const auto is_option = [](const std::string& word) {
         return word.starts_with('-');
     };
     const auto end = std::find_if(command.begin(), command.end(), is_option);
     std::vector<std::string> question(command.begin(), end);
     question.emplace_back("--version");
-    const auto answer = run_process(question);
+    const auto answer = run_process(question, {}, {}, stop);
     return answer ? answer->output : "";
 }
 
@@ -63,26 +63,28 @@ void remove_old(const fs::path& cache) {
 
 }  // namespace
 
-std::string toolchain_text() {
+std::string toolchain_text(const std::stop_token& stop) {
     const auto command =
-        shared_object_command("simulator.cpp", "simulator.so", Processors::LikeThis);
-    give_up_if_interrupted();
-    return fmt::format("{}\n{}\n{}", runtime_text(), fmt::join(command, " "),
-                       compiler_version(command));
+        shared_object_command("simulator.cpp", "simulator.so", Processors::LikeThis, stop);
+    give_up_if_stopped(stop);
+    const std::string version = compiler_version(command, stop);
+    give_up_if_stopped(stop);
+    return fmt::format("{}\n{}\n{}", runtime_text(), fmt::join(command, " "), version);
 }
 
 std::optional<fs::path> prepared_runtime(const fs::path& cache, const std::string& toolchain,
-                                         RealType real) {
+                                         RealType real, const std::stop_token& stop) {
     const fs::path target =
         cache / (sha256(fmt::format("{}\n{}", toolchain, name_of(real))) + runtime_extension);
     if (is_sealed_folder(target)) return target;
-    const BuildersTurn turn(cache);
+    const BuildersTurn turn(cache, stop);
     if (is_sealed_folder(target)) return target;  // by the process that we have waited for
     const WorkFolder work(cache, "building-", "set XDG_CACHE_HOME to a folder that can be written");
     const fs::path made = work.path() / "runtime";
     std::error_code error;
     if (!fs::create_directory(made, error)) throw UnwritableFile(made, error.value());
-    if (!prepare_runtime(made, real)) return std::nullopt;
+    if (!prepare_runtime(made, real, stop)) return std::nullopt;
+    give_up_if_stopped(stop);
     seal_folder(made);
     std::error_code exists_by_now;
     fs::remove_all(target, exists_by_now);

@@ -1,24 +1,47 @@
 #include "engines/load_simulator.hpp"
 
 #include "cache/known_objects.hpp"
+#include "driver/cpp_compiler.hpp"
 #include "driver/extern_headers.hpp"
 #include "engines/compiled_simulator.hpp"
 #include "engines/external_library.hpp"
 #include "engines/interpreted_simulator.hpp"
+#include "engines/switching_simulator.hpp"
 #include "problems/front_end.hpp"
 #include "support/failure.hpp"
+#include "support/program.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <utility>
 
 namespace rddlc::workbench {
 
+namespace {
+
+constexpr std::array<std::string_view, 3> engine_names = {"auto", "compiled", "interpreter"};
+
+}  // namespace
+
 std::string_view name_of(Engine engine) {
-    return engine == Engine::Compiled ? "compiled" : "interpreter";
+    return engine_names[static_cast<std::size_t>(engine)];
+}
+std::optional<Engine> engine_named(std::string_view name) {
+    const auto found = std::ranges::find(engine_names, name);
+    if (found == engine_names.end()) return std::nullopt;
+    return static_cast<Engine>(found - engine_names.begin());
+}
+
+Engine engine_of(const LoadOptions& options) {
+    if (options.engine != Engine::Auto) return options.engine;
+    if (options.real == RealType::Float) return Engine::Compiled;
+    const ExternFiles externs = extern_files(options.externs);
+    if (!externs.shared_objects.empty()) return Engine::Interpreter;
+    return externs.headers.empty() ? Engine::Auto : Engine::Compiled;
 }
 
 namespace {
@@ -64,9 +87,18 @@ LoadedProblem interpreted(Compilation compilation, const ProblemFiles& files,
             LoadCosts{}};
 }
 
+// What emit_compilation uses of one that stopped before.
+Compilation copy_to_emit(const Compilation& optimised) {
+    Compilation copy({});
+    copy.sources = optimised.sources;
+    copy.program = optimised.program;
+    copy.details = optimised.details;
+    return copy;
+}
+
 // Nothing if the files alone do not determine the object.
 std::optional<std::string> key_of(const ProblemFiles& files, const LoadOptions& options) {
-    if (!options.remembers || options.engine != Engine::Compiled || options.ignore_cache ||
+    if (!options.remembers || options.engine == Engine::Interpreter || options.ignore_cache ||
         !options.externs.empty())
         return std::nullopt;
     const std::string told =
@@ -76,20 +108,80 @@ std::optional<std::string> key_of(const ProblemFiles& files, const LoadOptions& 
     return key_of_files(files.all(), told);
 }
 
+CacheOptions cache_options(const ProblemFiles& files, const LoadOptions& options) {
+    return {.what = files.name,
+            .ignore_cache = options.ignore_cache,
+            .quiet = options.quiet,
+            .extern_headers = extern_files(options.externs).headers,
+            .linked_batches = options.real,
+            .on_begin = options.on_compiling};
+}
+
+// The compiled simulator of an optimised program.
+Simulator build_from(const Compilation& optimised, const ProblemFiles& files,
+                     const LoadOptions& options, const std::stop_token& stop) {
+    const Compilation emitted =
+        emit_compilation(copy_to_emit(optimised), front_end_options(files, Stage::Emit, options));
+    if (emitted.diagnostics.has_errors()) throw Failure(emitted.diagnostics.all().front().message);
+    CacheOptions cache = cache_options(files, options);
+    cache.quiet = true;
+    cache.on_begin = {};
+    cache.stop = stop;
+    const CompiledSimulator compiled = compiled_simulator(emitted.text, cache);
+    if (const auto key = key_of(files, options)) remember_object(*key, compiled.object.path);
+    return compiled.simulator;
+}
+
+LoadedProblem switching(Compilation compilation, const ProblemFiles& files,
+                        const LoadOptions& options) {
+    if (!is_compiler_there()) {
+        if (!options.quiet)
+            tell(
+                "warning: there is no C++ compiler '{}': the problem is interpreted, which is "
+                "slower\n",
+                cpp_compiler().front());
+        return interpreted(std::move(compilation), files, options);
+    }
+    const auto to_emit = std::make_shared<const Compilation>(copy_to_emit(compilation));
+    LoadedProblem problem = interpreted(std::move(compilation), files, options);
+    const auto build = [to_emit, files, options](const std::stop_token& stop) {
+        return build_from(*to_emit, files, options, stop);
+    };
+    const auto report = [name = files.name, quiet = options.quiet](const std::string& why) {
+        if (!quiet) tell("warning: {} is interpreted, which is slower: {}\n", name, why);
+    };
+    problem.background = std::make_shared<BackgroundBuild>(build, report);
+    problem.simulator = switching_simulator(problem.simulator, problem.background);
+    return problem;
+}
+
 LoadedProblem built(const Compilation& compilation, const ProblemFiles& files,
                     const LoadOptions& options) {
     LoadCosts costs;
     const std::string& text = compilation.text;
     costs.emitted_lines = std::count(text.begin(), text.end(), '\n');
     costs.emitted_bytes = static_cast<std::int64_t>(text.size());
-    const CompiledSimulator compiled =
-        compiled_simulator(text, {files.name, options.ignore_cache, options.quiet,
-                                  extern_files(options.externs).headers, options.real});
+    const CompiledSimulator compiled = compiled_simulator(text, cache_options(files, options));
     costs.build_seconds = compiled.object.build_seconds;
     if (const auto key = key_of(files, options)) remember_object(*key, compiled.object.path);
     costs.object_bytes =
         static_cast<std::int64_t>(std::filesystem::file_size(compiled.object.path));
-    return {files, compiled.simulator, costs};
+    LoadedProblem problem{files, compiled.simulator, costs};
+    problem.is_compiled = true;
+    return problem;
+}
+
+LoadedProblem loaded(Compilation compilation, const ProblemFiles& files,
+                     const LoadOptions& options) {
+    switch (engine_of(options)) {
+        case Engine::Auto:
+            return switching(std::move(compilation), files, options);
+        case Engine::Compiled:
+            return built(compilation, files, options);
+        case Engine::Interpreter:
+            break;
+    }
+    return interpreted(std::move(compilation), files, options);
 }
 
 UsedFiles used_files(const ProblemFiles& files, const LoadOptions& options) {
@@ -113,25 +205,39 @@ CompileOptions front_end_options(const ProblemFiles& files, Stage last,
 }
 
 Compilation compile_problem(const ProblemFiles& files, const LoadOptions& options) {
-    return options.engine == Engine::Interpreter ? compile_to_interpret(files, options)
-                                                 : compile_to_build(files, options);
+    return engine_of(options) == Engine::Compiled ? compile_to_build(files, options)
+                                                  : compile_to_interpret(files, options);
 }
 
 LoadedProblem load_compilation(Compilation compilation, const ProblemFiles& files,
                                const LoadOptions& options) {
-    LoadedProblem problem = options.engine == Engine::Interpreter
-                                ? interpreted(std::move(compilation), files, options)
-                                : built(compilation, files, options);
+    LoadedProblem problem = loaded(std::move(compilation), files, options);
     problem.used = used_files(files, options);
     return problem;
 }
 
+namespace {
+
+// A cache that cannot be used is no reason for Engine::Auto not to start.
+std::optional<std::filesystem::path> known_object_of(const ProblemFiles& files,
+                                                     const LoadOptions& options) {
+    try {
+        const auto key = key_of(files, options);
+        return key ? known_object(*key) : std::nullopt;
+    } catch (const Failure&) {
+        if (options.engine != Engine::Auto) throw;
+        return std::nullopt;
+    }
+}
+
+}  // namespace
+
 std::optional<LoadedProblem> load_known(const ProblemFiles& files, const LoadOptions& options) {
-    const auto key = key_of(files, options);
-    const auto object = key ? known_object(*key) : std::nullopt;
+    const auto object = known_object_of(files, options);
     Simulator simulator = object ? load_object(*object) : nullptr;
     if (!simulator) return std::nullopt;
-    return LoadedProblem{files, std::move(simulator), LoadCosts{}, used_files(files, options)};
+    return LoadedProblem{files, std::move(simulator), LoadCosts{}, used_files(files, options),
+                         true};
 }
 
 LoadedProblem load_problem(const ProblemFiles& files, const LoadOptions& options) {

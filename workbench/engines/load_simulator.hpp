@@ -3,6 +3,7 @@
 
 #include "driver/driver.hpp"
 #include "emit/emit.hpp"
+#include "engines/background_build.hpp"
 #include "passes/passes.hpp"
 #include "problems/problem_lookup.hpp"
 #include "support/files.hpp"
@@ -11,6 +12,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string_view>
@@ -18,13 +20,19 @@
 
 namespace rddlc::workbench {
 
-enum class Engine { Compiled, Interpreter };
-std::string_view name_of(Engine engine);
+// Auto starts with the interpreter, and changes to the compiled engine when that is ready in the
+// background. All compute the same bits.
+enum class Engine { Auto, Compiled, Interpreter };
+std::string_view name_of(Engine engine);  // "auto", ...
+std::optional<Engine> engine_named(std::string_view name);
 
 struct LoadOptions {
-    Engine engine = Engine::Compiled;
+    Engine engine = Engine::Auto;
     bool ignore_cache = false;
     bool quiet = false;  // say nothing about compiling
+    // Called with the problem's name before it is compiled, unless in the background; empty: a
+    // terminal shows it.
+    std::function<void(const std::string&)> on_compiling = {};
     // Files of external functions: C++ headers; for the interpreter also shared objects.
     std::vector<std::filesystem::path> externs;
     PassOptions passes;
@@ -51,7 +59,14 @@ struct LoadedProblem {
     Simulator simulator;
     LoadCosts costs;
     UsedFiles used = {};  // all that was read for it
+    bool is_compiled = false;
+    // Of Engine::Auto, unless the simulator is compiled already.
+    std::shared_ptr<BackgroundBuild> background = {};
 };
+
+// The engine in place of Auto where that has to wait for the C++ compiler anyway: external
+// functions need it, and the interpreter computes with doubles alone.
+Engine engine_of(const LoadOptions& options);
 
 // To compile the problem up to a stage, as it is loaded.
 CompileOptions front_end_options(const ProblemFiles& files, Stage last, const LoadOptions& options);

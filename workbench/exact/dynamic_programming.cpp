@@ -97,16 +97,16 @@ class Sweeps {
 
 struct Change {
     StateNumber state;
-    Decree decree;
+    PolicyEntry entry;
 };
 
-void write_decrees(Optimum& optimum, StateNumber states, std::vector<Change> changes) {
+void write_entries(Optimum& optimum, StateNumber states, std::vector<Change> changes) {
     std::stable_sort(changes.begin(), changes.end(),
                      [](const Change& a, const Change& b) { return a.state < b.state; });
     optimum.first.assign(states + std::size_t{1}, 0);
     for (const Change& change : changes) {
         ++optimum.first[change.state + std::size_t{1}];
-        optimum.decrees.push_back(change.decree);
+        optimum.entries.push_back(change.entry);
     }
     std::partial_sum(optimum.first.begin(), optimum.first.end(), optimum.first.begin());
 }
@@ -130,7 +130,7 @@ Optimum within_horizon(const MarkovModel& model, std::int64_t horizon, double di
         bar.advance();
     }
     Optimum optimum{horizon, sweeps.value_of_starts(), 0, horizon, {}, {}};
-    write_decrees(optimum, model.states.count(), std::move(changes));
+    write_entries(optimum, model.states.count(), std::move(changes));
     return optimum;
 }
 
@@ -152,7 +152,7 @@ Optimum without_horizon(const MarkovModel& model, double discount, int threads) 
     std::vector<Change> changes;
     for (StateNumber s = 0; s < model.states.count(); ++s)
         changes.push_back({s, {0, sweeps.action(s)}});
-    write_decrees(optimum, model.states.count(), std::move(changes));
+    write_entries(optimum, model.states.count(), std::move(changes));
     return optimum;
 }
 

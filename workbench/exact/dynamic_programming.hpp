@@ -1,5 +1,5 @@
-// The best that can be done in a MarkovModel: backward induction over the steps that are left
-// (Bellman, 1957), or value iteration where there is no horizon.
+// The optimal value and policy of a MarkovModel: by backward induction over the steps that are left
+// (Bellman, 1957), or by value iteration if there is no horizon.
 #pragma once
 
 #include "exact/markov_model.hpp"
@@ -10,8 +10,9 @@
 
 namespace rddlc::workbench {
 
-// From so many steps left on, down to the next larger number, the action is the best one.
-struct Decree {
+// The best action of a state when `left` steps are left, or more, up to the `left` of the next
+// entry.
+struct PolicyEntry {
     std::uint32_t left;
     std::uint32_t action;  // of MarkovModel::actions
 };
@@ -21,14 +22,14 @@ struct Optimum {
     double value = 0;          // of the start: the expected sum of discounted rewards
     double error = 0;          // by which it may be wrong, besides rounding: without a horizon
     std::int64_t sweeps = 0;   // over all states
-    // Decrees of state s are first[s] .. first[s + 1], by ascending `left`; without a horizon there
+    // Entries of state s are first[s] .. first[s + 1], by ascending `left`; without a horizon there
     // is one.
     std::vector<std::uint64_t> first;
-    std::vector<Decree> decrees;
+    std::vector<PolicyEntry> entries;
 };
 
-// horizon: 0: none; then the discount has to be less than 1. Throws a Failure. The same on any
-// number of threads.
+// A horizon of 0 means none; then the discount must be less than 1. Throws a Failure. The result is
+// the same on any number of threads.
 Optimum optimum_of(const MarkovModel& model, std::int64_t horizon, double discount, int threads);
 
 }  // namespace rddlc::workbench

@@ -18,16 +18,16 @@ struct MarkovModel {
     // within[d]: how many states are reached within d steps; the last entry counts all of them.
     std::vector<StateNumber> within;
     std::vector<std::byte> actions;  // records, one after the other
-    // Choices of state s are first_choice[s] .. first_choice[s + 1]; the last states may have none,
-    // since nothing is done in them within the horizon.
+    // The choices of state s are first_choice[s] .. first_choice[s + 1]. The last states may have
+    // no choices, since no action follows them within the horizon.
     std::vector<std::uint64_t> first_choice;
-    // Each choice: its action, the mean reward, and transitions first_transition[c] ..
+    // The action and the mean reward of a choice. Its transitions are first_transition[c] ..
     // first_transition[c + 1].
     std::vector<std::uint32_t> action;
     std::vector<double> reward;
     std::vector<std::uint64_t> first_transition;
-    // Each transition. Those that end the episode are left out, so probabilities sum up to 1 or
-    // less.
+    // The next state of a transition, and its probability. Ends of episodes are not transitions, so
+    // probabilities sum up to 1 or less.
     std::vector<StateNumber> to;
     std::vector<double> probability;
     // Where episodes start.
@@ -55,8 +55,8 @@ struct ModelLimits {
 MarkovModel markov_model(const ir::Interpreter& interpreter, std::vector<std::byte> actions,
                          const ModelLimits& limits);
 
-// Calls work(0) .. work(count - 1) from so many threads (0: one per core). An
-// exception of one of them comes out of this.
+// Calls work(0) .. work(count - 1) from so many threads (0: one per core). What one of them throws
+// comes out of this.
 void in_parallel(std::size_t count, int threads, const std::function<void(std::size_t)>& work);
 
 // How many states a record can have: 2 for each bool, and so on; infinite where a number has no

@@ -106,7 +106,7 @@ void archive_solution(Archive& archive, Solution& solution) {
     archive(solution.optimum.error);
     archive(solution.optimum.sweeps);
     archive(solution.optimum.first);
-    archive(solution.optimum.decrees);
+    archive(solution.optimum.entries);
     archive(solution.states);
     archive(solution.actions);
 }
@@ -123,9 +123,9 @@ bool is_sound(const Solution& solution, const rddl_problem& problem) {
         return false;
     const std::size_t actions = solution.actions.size() / action_size;
     return std::is_sorted(optimum.first.begin(), optimum.first.end()) &&
-           optimum.first.back() == optimum.decrees.size() &&
-           std::all_of(optimum.decrees.begin(), optimum.decrees.end(),
-                       [&](const Decree& decree) { return decree.action < actions; });
+           optimum.first.back() == optimum.entries.size() &&
+           std::all_of(optimum.entries.begin(), optimum.entries.end(),
+                       [&](const PolicyEntry& entry) { return entry.action < actions; });
 }
 
 }  // namespace
@@ -207,13 +207,13 @@ class SolutionActor {
             throw Failure(fmt::format("the solution is of at most {} steps", optimum.horizon),
                           "solve the problem with this --horizon");
         const auto begin =
-            optimum.decrees.begin() + static_cast<std::ptrdiff_t>(optimum.first[number]);
+            optimum.entries.begin() + static_cast<std::ptrdiff_t>(optimum.first[number]);
         const auto end =
-            optimum.decrees.begin() + static_cast<std::ptrdiff_t>(optimum.first[number + 1]);
+            optimum.entries.begin() + static_cast<std::ptrdiff_t>(optimum.first[number + 1]);
         const auto next = std::upper_bound(
             begin, end, left,
-            [](std::int64_t steps, const Decree& decree) { return steps < decree.left; });
-        // With fewer steps to go than any decree is about, the episode did not begin at the start.
+            [](std::int64_t steps, const PolicyEntry& entry) { return steps < entry.left; });
+        // With fewer steps to go than any entry is about, the episode did not begin at the start.
         if (next == begin) return static_cast<const std::byte*>(simulator_.problem->default_action);
         return solution_->actions.data() +
                (next - 1)->action * static_cast<std::size_t>(simulator_.problem->action_size);

@@ -19,7 +19,7 @@ class StateTable {
     static constexpr StateNumber absent = std::numeric_limits<StateNumber>::max();
 
     explicit StateTable(std::size_t record_size) : size_(record_size), slots_(64, absent) {}
-    // Of records one after the other, which differ.
+    // Takes records one after the other; they must differ.
     StateTable(std::size_t record_size, std::vector<std::byte> records)
         : size_(record_size), records_(std::move(records)) {
         count_ = size_ == 0 ? 0 : static_cast<StateNumber>(records_.size() / size_);

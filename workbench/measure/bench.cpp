@@ -87,6 +87,7 @@ std::vector<PeerFigures> measure_peers(const ProblemFiles& files, const BenchSet
 BenchReport bench_problem(const ProblemFiles& files, LoadOptions load,
                           const BenchSettings& options) {
     load.ignore_cache |= !options.against.empty();  // the others also compile again
+    if (load.engine == Engine::Auto) load.engine = Engine::Compiled;  // one engine is measured
     const LoadedProblem problem = load_problem(files, load);
     const rddl_simulator& simulator = *problem.simulator;
 

@@ -15,7 +15,7 @@
 
 namespace rddlc::workbench {
 
-// The server's description of the session.
+// The server's description of itself.
 struct SessionInit {
     std::string task;  // domain and instance; "" where the server sends none
     std::int64_t rounds = 0;

@@ -25,7 +25,7 @@ struct SessionOptions {
     std::function<double()> clock = {};
 };
 
-// The part that all sessions share. The simulator must outlive it.
+// The data that all sessions share. The simulator must outlive it.
 struct ServedProblem {
     ServedProblem(const rddl_simulator& served, const std::string& text);
 
@@ -79,7 +79,7 @@ class ServerSession {
     std::string client_;
     double began_ = 0;
     solvers::BatchHandle batch_;
-    // The round so far.
+    // The state of the round.
     bool counts_ = true;
     std::int64_t turns_ = 0;  // that are made
     double reward_ = 0, total_ = 0, discount_ = 1;

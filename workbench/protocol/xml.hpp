@@ -25,7 +25,7 @@ struct Element {
 
     // The first child of that name; NULL if there is none.
     const Element* child(std::string_view name) const;
-    // Its text. Throws a BadMessage if there is no such child.
+    // The text of that child. Throws a BadMessage if there is no such child.
     const std::string& text_of(std::string_view name) const;
 };
 

@@ -14,6 +14,7 @@ Command list_command();
 Command info_command();
 Command check_command();
 Command fmt_command();
+Command lsp_command();
 Command run_command();
 Command evaluate_command();
 Command compare_command();

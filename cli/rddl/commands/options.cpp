@@ -75,11 +75,10 @@ void add_cache_option(Command& command, LoadOptions& options) {
 
 void add_engine_options(Command& command, LoadOptions& options) {
     add_option(command, "--engine", "ENGINE",
-               "compiled (default), or interpreter, which needs no C++ compiler",
-               [&options](const std::string& name) {
-                   options.engine = name == "compiled" ? Engine::Compiled : Engine::Interpreter;
-               })
-        .choices = {"compiled", "interpreter"};
+               "auto (default) starts with the interpreter and changes to the compiled engine when "
+               "that is ready; compiled waits for it; interpreter needs no C++ compiler",
+               [&options](const std::string& name) { options.engine = *engine_named(name); })
+        .choices = {"auto", "compiled", "interpreter"};
     add_extern_option(command, options,
                       "C++ header of the external functions; the interpreter also takes a .so");
     add_pass_options(command, options);

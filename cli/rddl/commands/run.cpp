@@ -86,7 +86,7 @@ void print_summary(const RunOptions& options, const Summary& summary, const Roll
                    const LoadedProblem& problem, ViolationExplainer& explainer) {
     const rddl_problem& description = *problem.simulator->problem;
     print("{} ({}): policy {}, seed {}, {}\n\n", description.instance, description.domain,
-          policy_name(options.rollouts), options.rollouts.seed, name_of(options.load.engine));
+          policy_name(options.rollouts), options.rollouts.seed, name_of(engine_of(options.load)));
     TextTable table({{""},
                      {"mean", Align::Right},
                      {"std", Align::Right},
@@ -126,7 +126,7 @@ void print_json(const RunOptions& options, const Summary& summary, const Rollout
                 const LoadedProblem& problem, ViolationExplainer& explainer) {
     nlohmann::ordered_json out{{"problem", problem.files.name},
                                {"policy", policy_name(options.rollouts)},
-                               {"engine", name_of(options.load.engine)},
+                               {"engine", name_of(engine_of(options.load))},
                                {"seed", options.rollouts.seed},
                                {"episodes", summary.episodes},
                                {"return", spread_json(summary.undiscounted_return)},
@@ -161,7 +161,7 @@ std::string header_line(const RunOptions& options, const LoadedProblem& problem,
     header.problem = problem.files.name;
     header.files = problem.files.all();
     header.policy = policy_name(options.rollouts);
-    header.engine = name_of(options.load.engine);
+    header.engine = name_of(engine_of(options.load));
     header.seed = options.rollouts.seed;
     header.episodes = options.rollouts.episodes;
     header.horizon = horizon;

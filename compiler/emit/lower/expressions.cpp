@@ -200,6 +200,19 @@ Expression Expressions::lower(const ir::Node& node, const ir::DiscreteOver&) {
     return inline_binder(node);
 }
 
+// "rddl::sample::interval<weather_thresholds_>(context, {0, c}, state.weather[c])"
+Expression Expressions::lower(const ir::Node&, const ir::Interval& interval) {
+    tree::Expressions arguments = place(interval.place);
+    std::span<const ir::NodeId> row = interval.row;
+    if (several_ && ir::begins_with(unit_.program, interval.row, several_->nest)) {
+        arguments.push_back(word(several_->objects));
+        row = row.subspan(several_->nest.variables.size());
+    }
+    append(arguments, all_of(row));
+    return tree::call("rddl::sample::interval<" + unit_.names.buffers[interval.table.index] + ">",
+                      std::move(arguments));
+}
+
 Expression Expressions::lower(const ir::Node& node, const ir::Fault& fault) {
     return tree::call("rddl::fault<" + type(node.type) + ">", place(fault.place));
 }

@@ -118,6 +118,7 @@ class Expressions {
     tree::Expression lower(const ir::Node& node, const ir::Sample& sample);
     tree::Expression lower(const ir::Node& node, const ir::Discrete& discrete);
     tree::Expression lower(const ir::Node& node, const ir::DiscreteOver& discrete);
+    tree::Expression lower(const ir::Node& node, const ir::Interval& interval);
     tree::Expression lower(const ir::Node& node, const ir::Fault& fault);
 
     tree::Expression inline_binder(const ir::Node& node);

@@ -85,7 +85,8 @@ std::string_view wish_for(const ir::Node& node) {
     if (apply && apply->op >= Operator::BitAnd && apply->op <= Operator::BitXor) return "bits";
     const bool draws = std::holds_alternative<ir::Sample>(node.form) ||
                        std::holds_alternative<ir::Discrete>(node.form) ||
-                       std::holds_alternative<ir::DiscreteOver>(node.form);
+                       std::holds_alternative<ir::DiscreteOver>(node.form) ||
+                       std::holds_alternative<ir::Interval>(node.form);
     if (draws) return "draw";
     switch (node.type) {
         case ir::Scalar::Bool:

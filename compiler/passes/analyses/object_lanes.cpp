@@ -31,7 +31,7 @@ bool ObjectLanes::can_evaluate(ir::NodeId id) const {
     return match(
         program_[id].form, [](const ir::Constant&) { return true; },
         [](const ir::Local&) { return true; }, [](const ir::Bits&) { return true; },
-        [&](const ir::Load& load) { return can_load(load); },
+        [&](const ir::Load& load) { return can_index(load.buffer, load.indices); },
         [&](const ir::Convert& convert) { return can_evaluate(convert.operand); },
         [&](const ir::Apply& apply) { return !apply.place && can_evaluate_all(apply.operands); },
         [&](const ir::Select& select) {
@@ -42,6 +42,10 @@ bool ObjectLanes::can_evaluate(ir::NodeId id) const {
                    ir::is_place_in(program_, nest_, sample.place.index) &&
                    can_evaluate_all(sample.parameters);
         },
+        [&](const ir::Interval& interval) {
+            return ir::is_place_in(program_, nest_, interval.place.index) &&
+                   can_index(interval.table, interval.row);
+        },
         [](const auto&) { return false; });
 }
 
@@ -51,17 +55,16 @@ bool ObjectLanes::can_evaluate_all(const std::vector<ir::NodeId>& ids) const {
 
 // An element of these objects, or one that is the same for all of them, or that they choose from a
 // table of constants.
-bool ObjectLanes::can_load(const ir::Load& load) const {
-    if (ir::begins_with(program_, load.indices, nest_)) {
-        const auto rest =
-            load.indices.begin() + static_cast<std::ptrdiff_t>(nest_.variables.size());
-        return can_evaluate_all({rest, load.indices.end()});
+bool ObjectLanes::can_index(ir::BufferId buffer, const std::vector<ir::NodeId>& indices) const {
+    if (ir::begins_with(program_, indices, nest_)) {
+        const auto rest = indices.begin() + static_cast<std::ptrdiff_t>(nest_.variables.size());
+        return can_evaluate_all({rest, indices.end()});
     }
-    const bool is_same = std::ranges::all_of(load.indices, [&](ir::NodeId index) {
+    const bool is_same = std::ranges::all_of(indices, [&](ir::NodeId index) {
         return ir::is_same_for_all(properties_of_(index), nest_);
     });
-    return is_same || (program_[load.buffer].storage == ir::Storage::Constant &&
-                       can_evaluate_all(load.indices));
+    return is_same ||
+           (program_[buffer].storage == ir::Storage::Constant && can_evaluate_all(indices));
 }
 
 bool ObjectLanes::can_store(const ir::Store& store) const {

@@ -27,7 +27,7 @@ class ObjectLanes {
     bool can_store(const ir::Store& store) const;
 
   private:
-    bool can_load(const ir::Load& load) const;
+    bool can_index(ir::BufferId buffer, const std::vector<ir::NodeId>& indices) const;
     bool can_evaluate_all(const std::vector<ir::NodeId>& ids) const;
 
     const ir::Program& program_;

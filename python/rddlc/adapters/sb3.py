@@ -7,14 +7,12 @@
 
 from __future__ import annotations
 
-from collections import OrderedDict
 from collections.abc import Iterable
 from typing import Any
 
 import gymnasium
 import numpy as np
 from gymnasium import spaces
-from gymnasium.vector import AutoresetMode
 from numpy.typing import NDArray
 from stable_baselines3.common.vec_env import VecEnv as Base
 from stable_baselines3.common.vec_env import VecMonitor
@@ -24,6 +22,8 @@ from ..arguments import refuse_unknown
 from ..environment import RDDLEnv
 from ..errors import Error
 from ..vector import RDDLVectorEnv
+from ..versions import AutoresetMode
+from .multi_input import MultiInput
 
 Indices = None | int | Iterable[int]
 
@@ -57,41 +57,6 @@ def takes_actions(space: gymnasium.Space[Any]) -> bool:
     if isinstance(space, spaces.Box):
         return space.is_bounded()
     return isinstance(space, (spaces.Discrete, spaces.MultiDiscrete))
-
-
-class MultiInput(gymnasium.ObservationWrapper[Any, Any, Any]):
-    """Dictionaries of observations as "MultiInputPolicy" takes them: numbers are float32 arrays, of the
-    shape (1,) in place of (), and ints with bounds are counted from 0."""
-
-    def __init__(self, env: gymnasium.Env[Any, Any]) -> None:
-        super().__init__(env)
-        given: Any = env.observation_space
-        self._least = {
-            name: int(space.start) if isinstance(space, spaces.Discrete) else 0
-            for name, space in given.items()
-        }
-        self._entries = {name: _input_space(space) for name, space in given.items()}
-        self.observation_space = spaces.Dict(OrderedDict(self._entries))
-
-    def observation(self, observation: Any) -> dict[str, Any]:
-        return {
-            name: observation[name] - self._least[name]
-            if isinstance(space, spaces.Discrete)
-            else np.reshape(observation[name], space.shape or (1,)).astype(np.float32)
-            for name, space in self._entries.items()
-        }
-
-    def action_masks(self) -> NDArray[np.bool_]:
-        """See `RDDLEnv.action_masks`."""
-        masks: NDArray[np.bool_] = self.get_wrapper_attr("action_masks")()
-        return masks
-
-
-def _input_space(space: Any) -> gymnasium.Space[Any]:
-    if isinstance(space, spaces.Discrete):
-        return spaces.Discrete(int(space.n))
-    lower, upper = (np.reshape(each, space.shape or (1,)) for each in (space.low, space.high))
-    return spaces.Box(lower.astype(np.float32), upper.astype(np.float32), dtype=np.float32)
 
 
 class VecEnv(Base):

@@ -11,26 +11,35 @@ states (LRTDP, ILAOstar, AOstar).
 from __future__ import annotations
 
 import os
+import time
+from pathlib import Path
 from typing import Any
 
+from gymnasium import Env, spaces
 from skdecide import Domain, ImplicitSpace, Space, TransitionOutcome, Value
-from skdecide.builders.domain import DeterministicInitialized, FullyObservable, Renderable
+from skdecide.builders.domain import (
+    DeterministicInitialized,
+    FullyObservable,
+    Renderable,
+    UnrestrictedActions,
+)
 from skdecide.core import DiscreteDistribution
 from skdecide.domains import GoalMDPDomain, RLDomain, StatelessSimulatorDomain
 from skdecide.hub.space.gym import GymSpace, ListSpace
 
 from .. import _problem_of, make
-from ..arguments import finite
+from ..arguments import finite, whole
 from ..environment import RDDLEnv
 from ..errors import Error
 from ..problems import Problem
 from ..states import State
 from ..transitions import Outcome, Transitions
+from .multi_input import MultiInput
 
 COST_ERROR = 1e-9  # relative
 
 
-class D(RLDomain, FullyObservable, Renderable):
+class D(RLDomain, UnrestrictedActions, FullyObservable, Renderable):
     T_state = Any  # an observation of the environment
     T_observation = T_state
     T_event = Any  # an action of the environment
@@ -44,54 +53,105 @@ class RDDLDomain(D):
 
     def __init__(
         self,
-        domain: str | os.PathLike[str] | Problem,
+        domain: str | os.PathLike[str] | Problem | None = None,
         instance: str | int | os.PathLike[str] | None = None,
         *,
         movie: str | os.PathLike[str] | None = None,
+        movie_name: str | None = None,
+        movie_dir: str | os.PathLike[str] = "rddl_movies",
+        max_frames: int = 1000,
+        display_within_jupyter: bool = False,
+        display_with_pygame: bool = False,
+        visualizer: Any = "",
+        base_class: type[Any] | None = None,
+        backend: Any = None,
         **options: Any,
     ) -> None:
         """domain, instance, options: as `rddlc.make` takes them; render_mode is "rgb_array" by
         default. movie: a GIF of the latest episode that has ended, or of those that `save_gif` asks
-        for."""
-        self.env: RDDLEnv = make(domain, instance, **{"render_mode": "rgb_array", **options})
+        for.
+
+        The other names are those of `skdecide.hub.domain.rddl.RDDLDomain`, where domain and instance
+        are rddl_domain and rddl_instance:
+
+        movie_name: each episode becomes a GIF movie_dir/movie_name/movie_name_TIME.gif, when it ends
+            or has max_frames steps.
+        display_within_jupyter: render() shows the picture in a notebook. display_with_pygame: in a
+            window.
+        visualizer: the name of one of ours; a class of pyRDDLGym's means ours for the domain.
+        base_class: pyRDDLGym-rl's SimplifiedActionRDDLEnv means actions="simplified".
+        backend: not used, since there is just this one.
+        """
+        if domain is None:
+            domain, instance = options.pop("rddl_domain", None), options.pop("rddl_instance", None)
+        if getattr(base_class, "__name__", "").startswith("SimplifiedAction"):
+            options = {"actions": "simplified", **options}
+        if isinstance(visualizer, str):
+            options["visualizer"] = visualizer
+        mode = "human" if display_with_pygame else "rgb_array"
+        self.env: RDDLEnv = make(domain, instance, **{"render_mode": mode, **options})
+        # Learners take no arrays of the shape ().
+        is_dict = isinstance(self.env.observation_space, spaces.Dict)
+        is_learned = is_dict and options.get("actions", "dict") != "dict"
+        self._learners: Env[Any, Any] = MultiInput(self.env) if is_learned else self.env
         self._movie = movie
+        self._movies = None if movie_name is None else Path(movie_dir) / movie_name
+        self._max_frames = whole("max_frames", max_frames, 1)
+        self._shows = display_within_jupyter
 
     def save_gif(self, path: str | os.PathLike[str]) -> None:
         """The episode so far."""
         self.env.save_gif(path)
 
     def _state_reset(self) -> Any:
-        return self.env.reset()[0]
+        return self._learners.reset()[0]
 
     def _state_step(self, action: Any) -> TransitionOutcome:
-        observation, reward, terminated, truncated, info = self.env.step(action)
+        observation, reward, terminated, truncated, info = self._learners.step(action)
         is_over = terminated or truncated
         if is_over and self._movie is not None:
             self.env.save_gif(self._movie)
+        if self._movies is not None and (is_over or self.env.timestep == self._max_frames):
+            self._movies.mkdir(parents=True, exist_ok=True)
+            self.env.save_gif(
+                self._movies / f"{self._movies.name}_{time.strftime('%Y%m%d-%H%M%S')}.gif"
+            )
         return TransitionOutcome(observation, Value(reward=reward), is_over, info)
 
     def _get_action_space_(self) -> Space[Any]:
         return GymSpace(self.env.action_space)
 
     def _get_observation_space_(self) -> Space[Any]:
-        return GymSpace(self.env.observation_space)
+        return GymSpace(self._learners.observation_space)
 
     def _render_from(self, memory: Any, **options: Any) -> Any:
         """The present state of the environment."""
-        return self.env.render()
+        picture = self.env.render()
+        if self._shows:
+            _show_in_notebook(self.env)
+        return picture
+
+
+def _show_in_notebook(env: RDDLEnv) -> None:
+    try:
+        from IPython.display import clear_output, display
+    except ImportError:
+        return
+    clear_output(wait=True)
+    display(env)
 
 
 class RDDLDomainRL(RDDLDomain):
-    """Dictionaries of observations, and simplified actions."""
+    """Dictionaries of observations, as "MultiInputPolicy" takes them, and simplified actions."""
 
-    def __init__(self, domain: Any, instance: Any = None, **options: Any) -> None:
+    def __init__(self, domain: Any = None, instance: Any = None, **options: Any) -> None:
         super().__init__(domain, instance, **{"actions": "simplified", **options})
 
 
 class RDDLDomainSimplifiedSpaces(RDDLDomain):
     """Flat observations, and actions in one Box or Discrete, as scikit-decide's CGP takes them."""
 
-    def __init__(self, domain: Any, instance: Any = None, **options: Any) -> None:
+    def __init__(self, domain: Any = None, instance: Any = None, **options: Any) -> None:
         super().__init__(
             domain, instance, **{"observations": "flat", "actions": "box", **options}
         )

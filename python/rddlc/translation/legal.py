@@ -41,8 +41,10 @@ class _Legal(spaces.Space[Any]):
     _sampler: _Sampler
 
     def sample(self, mask: Any | None = None, probability: Any | None = None) -> Any:
-        if mask is not None or probability is not None:
+        if probability is not None:  # since gymnasium 1.1
             return super().sample(mask, probability)
+        if mask is not None:
+            return super().sample(mask)
         return self._sampler.sample(super().sample, self.np_random)
 
     def __reduce__(self) -> tuple[Any, ...]:

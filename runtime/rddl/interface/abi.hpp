@@ -7,6 +7,7 @@
 #include <rddl/batch/action_choices.hpp>
 #include <rddl/batch/any_engine.hpp>
 #include <rddl/batch/batch.hpp>
+#include <rddl/batch/snapshot.hpp>
 #include <rddl/interface/describe.hpp>
 #include <rddl/interface/error_text.hpp>
 #include <rddl/interface/fault_text.hpp>
@@ -465,6 +466,57 @@ class Functions {
             return out_of_memory();
         }
     }
+    // ------------------------------------------------------------------------- snapshots
+
+    static std::int64_t size_of_snapshot(const rddl_simulator* simulator) {
+        if (simulator == nullptr) return 0;
+        return snapshot_bytes(*static_cast<const Parts*>(simulator->self));
+    }
+    static std::int64_t snapshot_bytes(const Parts& maker) {
+        return static_cast<std::int64_t>(
+            rddl::snapshot_size(*maker.problem, memory_size(maker.engine)));
+    }
+    static rddl_error get_snapshots(const rddl_batch* batch, std::int64_t begin, std::int64_t count,
+                                    void* snapshots) {
+        if (batch == nullptr || lacks(snapshots, count, 1))
+            return missing("the batch or the room for snapshots");
+        try {
+            const Parts& maker = *handle(batch).maker;
+            const std::size_t memory = memory_size(maker.engine);
+            Environment environment(*maker.problem, memory);
+            return for_each(
+                batch, begin, count, [&](const auto& all, std::int64_t k, std::int64_t i) {
+                    all.get_environment(i, environment);
+                    write_snapshot(*maker.problem, memory, environment,
+                                   static_cast<std::byte*>(snapshots) + k * snapshot_bytes(maker));
+                });
+        } catch (...) {
+            return out_of_memory();
+        }
+    }
+    static rddl_error set_snapshots(rddl_batch* batch, std::int64_t begin, std::int64_t count,
+                                    const void* snapshots) {
+        if (batch == nullptr || lacks(snapshots, count, 1))
+            return missing("the batch or the snapshots");
+        if (const rddl_error error = handle(batch).check(begin, count)) return error;
+        const Parts& maker = *handle(batch).maker;
+        const std::size_t memory = memory_size(maker.engine);
+        const auto snapshot = [&](std::int64_t k) {
+            return static_cast<const std::byte*>(snapshots) + k * snapshot_bytes(maker);
+        };
+        for (std::int64_t k = 0; k < count; ++k)
+            if (!is_snapshot_of(*maker.problem, memory, snapshot(k)))
+                return bad_argument("snapshot ", k, " is not one of this problem and version");
+        try {
+            Environment environment(*maker.problem, memory);
+            return for_each(batch, begin, count, [&](auto& all, std::int64_t k, std::int64_t i) {
+                read_snapshot(*maker.problem, memory, snapshot(k), environment);
+                all.set_environment(i, environment);
+            });
+        } catch (...) {
+            return out_of_memory();
+        }
+    }
     static std::int64_t source_of(const std::int64_t* sources, std::int64_t k) {
         return sources != nullptr ? sources[k] : k;
     }
@@ -723,7 +775,10 @@ rddl_simulator Functions<L>::table(const Parts& parts) {
             .get_interm = get_interm,
             .get_constants = get_constants,
             .initial_state = initial_state,
-            .grounding_name = grounding_name};
+            .grounding_name = grounding_name,
+            .snapshot_size = size_of_snapshot,
+            .get_snapshots = get_snapshots,
+            .set_snapshots = set_snapshots};
 }
 
 template <class L>

@@ -80,6 +80,13 @@ struct Context<Objects<n, R>> {
     }
 };
 
+// Lanes without an object may have any.
+template <int n, class R>
+RDDL_INLINE Lanes<std::int64_t, n> in_range(const Context<Objects<n, R>>& context,
+                                            const Lanes<std::int64_t, n>& index) {
+    return select(context.active, index, Lanes<std::int64_t, n>{0});
+}
+
 // Lane k draws for the object k places behind that of lane 0, whose place is even: the numbers of a
 // counter value are those of two neighbours.
 template <int n, class R>

@@ -578,6 +578,12 @@ requires SomePack<First, Rest...> RDDL_INLINE auto at(const Array& array, const 
     }
 }
 
+// An index that is in range in the lanes that count: some index that is in range in all of them.
+template <class L, class T>
+RDDL_INLINE const T& in_range(const Context<L>&, const T& index) {
+    return index;
+}
+
 // ------------------------------------------------------------------------ some of the lanes
 
 // The lanes where the mask holds, 8 at most, one after the other; `others` in the rest of the 8.

@@ -148,6 +148,45 @@ TEST(Objects, DrawWhatTheyDrawOneByOne) {
     EXPECT_FALSE(context.faulted());
 }
 
+constexpr std::array<std::array<double, 2>, 3> thresholds_by_kind = {{
+    {0.2, 0.4},
+    {0.5, 0.5},
+    {0.1, 0.9},
+}};
+// The objects are more than a register has lanes.
+constexpr std::array<std::array<double, 9>, 21> thresholds_by_object = [] {
+    std::array<std::array<double, 9>, 21> all{};
+    for (std::size_t x = 0; x < all.size(); ++x)
+        for (std::size_t i = 0; i < all[x].size(); ++i)
+            all[x][i] = 0.1 * static_cast<double>(i) + 0.01 * static_cast<double>(x);
+    return all;
+}();
+
+TEST(Objects, DrawIntervalsFromRowsOfTheirOwn) {
+    std::array<std::int64_t, 21> kinds{}, of_kind{}, of_object{}, chosen{};
+    for (std::size_t x = 0; x < kinds.size(); ++x) kinds[x] = static_cast<std::int64_t>(x % 3);
+    Context<Scalar> context = context_of_step(7), other = context;
+    for_each_object(context, 21, [&](auto& several, auto x) {
+        elements(of_kind, x) = sample::interval<thresholds_by_kind>(several, {3, x}, at(kinds, x));
+        elements(of_object, x) = sample::interval<thresholds_by_object>(several, {4, x}, x);
+        elements(chosen, x) = branch(
+            several, at(kinds, x) > 0,
+            [&] {
+                return sample::interval<thresholds_by_kind>(several, {5, x},
+                                                            wrap_sub(at(kinds, x), 1));
+            },
+            [&] { return std::int64_t{-1}; });
+    });
+    for (Index x = 0; x < 21; ++x) {
+        const auto i = static_cast<std::size_t>(x);
+        EXPECT_EQ(of_kind[i], sample::interval<thresholds_by_kind>(other, {3, x}, kinds[i]));
+        EXPECT_EQ(of_object[i], sample::interval<thresholds_by_object>(other, {4, x}, x));
+        EXPECT_EQ(chosen[i], kinds[i] > 0
+                                 ? sample::interval<thresholds_by_kind>(other, {5, x}, kinds[i] - 1)
+                                 : -1);
+    }
+}
+
 // The first of several faults counts, though one operator comes before the other.
 TEST(Objects, TellTheFaultOfTheFirstObject) {
     std::array<double, 40> p{}, variance{};

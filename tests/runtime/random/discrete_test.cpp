@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -51,6 +52,26 @@ TEST(Discrete, FollowsItsProbabilities) {
                            return sample::discrete(context, place, weights);
                        }),
                        {0.1, 0.0, 0.25, 0.6, 0.05});
+}
+
+constexpr std::array<double, 3> few_thresholds = {0.1, 0.1, 0.35};
+constexpr std::array<std::array<double, 11>, 2> many_thresholds = {{
+    {0.0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0},
+    {0.05, 0.05, 0.1, 0.15, 0.2, 0.25, 0.3, 0.35, 0.4, 0.45, 0.5},
+}};
+
+TEST(Interval, IsTheNumberOfThresholdsThatTheUniformNumberReaches) {
+    Context<Scalar> context{stream_key(5, 0, 0), 1, {}};
+    for (int i = 0; i < 1000; ++i) {
+        const double u = uniform_at(context, {0, i});
+        const auto reached = [&](const auto& row) {
+            return std::ranges::count_if(row, [&](double threshold) { return threshold <= u; });
+        };
+        EXPECT_EQ(sample::interval<few_thresholds>(context, {0, i}), reached(few_thresholds));
+        for (std::int64_t row = 0; row < 2; ++row)
+            EXPECT_EQ(sample::interval<many_thresholds>(context, {0, i}, row),
+                      reached(many_thresholds[static_cast<std::size_t>(row)]));
+    }
 }
 
 TEST(Discrete, IsTheSmallestIndexWhoseSumExceedsTheUniformNumber) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <rddl/lanes/lane.hpp>
+#include <rddl/lanes/pack.hpp>
 #include <rddl/random/distributions/probability.hpp>
 #include <rddl/random/random.hpp>
 #include <rddl/values/context.hpp>
@@ -12,6 +13,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <type_traits>
 
 namespace rddl::sample {
 
@@ -92,6 +94,45 @@ typename L::Int unnormalised_discrete_over(Context<L>& context, Place place, Ind
         before = before + w;
     }
     return select(valid && has_mass, chosen, Int{0});
+}
+
+namespace detail {
+
+// The length of the rows of nested arrays, their last dimension.
+template <class T>
+struct RowLength;
+template <class T, std::size_t n>
+struct RowLength<std::array<T, n>> {
+    static constexpr Index value = static_cast<Index>(n);
+};
+template <class T, std::size_t m, std::size_t n>
+struct RowLength<std::array<std::array<T, m>, n>> : RowLength<std::array<T, m>> {};
+
+inline constexpr Index most_counted = 8;  // longer rows are searched by halves
+
+}  // namespace detail
+
+// How many thresholds of a row are at most U: an index with as many probabilities as there are
+// intervals between them. The indices of the row are in range in the active lanes.
+template <const auto& thresholds, class L, class... Row>
+RDDL_INLINE typename L::Int interval(Context<L>& context, Place place, const Row&... row) {
+    using Int = typename L::Int;
+    constexpr Index size = detail::RowLength<std::remove_cvref_t<decltype(thresholds)>>::value;
+    const auto u = uniform_at(context, place);
+    const auto is_at_most = [&](const auto& i) RDDL_INLINE_LAMBDA {
+        return at(thresholds, in_range(context, row)..., i) <= u;
+    };
+    Int count{0};
+    if constexpr (size <= detail::most_counted) {
+        for (Index i = 0; i < size; ++i) count = wrap_add(count, to_int(is_at_most(i)));
+    } else {
+        for (Index length = size; length > 0; length /= 2) {
+            const Index half = (length + 1) / 2;
+            const auto middle = wrap_add(count, Int{half - 1});
+            count = select(is_at_most(middle), wrap_add(count, Int{half}), count);
+        }
+    }
+    return count;
 }
 
 template <class L, std::size_t n>
