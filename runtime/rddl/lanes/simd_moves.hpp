@@ -200,9 +200,11 @@ template <int size>
 [[gnu::always_inline]] inline __m256i chosen_bytes(const char* table, __m256i places) {
     __m256i chosen = _mm256_setzero_si256();
 #pragma GCC unroll 8
-    for (int first = 0; first < size; first += 16) {
+    for (int i = 0; i < size; i += 16) {
+        // The last ones overlap those before: a part would be loaded by way of the stack.
+        const int first = size < 16 || i + 16 <= size ? i : size - 16;
         __m128i some = _mm_setzero_si128();
-        __builtin_memcpy(&some, table + first, size - first < 16 ? size - first : 16);
+        __builtin_memcpy(&some, table + first, size < 16 ? size : 16);
         const __m256i from_first =
             _mm256_sub_epi8(places, _mm256_set1_epi8(static_cast<char>(first)));
         chosen = _mm256_or_si256(
@@ -222,6 +224,7 @@ template <std::int64_t size, class Place>
                                                                  const Place* places, int count) {
     const char* const bytes = static_cast<const char*>(table);
     std::uint64_t bits = 0;
+    int k = 0;
 #ifdef __AVX512VBMI__
     if constexpr (sizeof(Place) == 1) {
         const std::uint64_t there = ~std::uint64_t{0} >> (64 - count);
@@ -236,18 +239,24 @@ template <std::int64_t size, class Place>
     }
 #elif defined(__AVX2__)
     if constexpr (sizeof(Place) == 1 && size <= 128) {
-        for (int first = 0; first < count; first += 32) {
-            __m256i numbers = _mm256_setzero_si256();
-            __builtin_memcpy(&numbers, places + first, count - first < 32 ? count - first : 32);
+        const auto chosen_bits = [&](__m256i numbers) __attribute__((always_inline)) {
             const __m256i chosen = detail::chosen_bytes<static_cast<int>(size)>(bytes, numbers);
             const int zero =
                 _mm256_movemask_epi8(_mm256_cmpeq_epi8(chosen, _mm256_setzero_si256()));
-            bits |= std::uint64_t{~static_cast<std::uint32_t>(zero)} << first;
+            return std::uint64_t{~static_cast<std::uint32_t>(zero)};
+        };
+        for (; k + 32 <= count; k += 32)
+            bits |= chosen_bits(_mm256_loadu_si256(reinterpret_cast<const __m256i_u*>(places + k)))
+                    << k;
+        if (k + 16 <= count) {
+            const __m128i some = _mm_loadu_si128(reinterpret_cast<const __m128i_u*>(places + k));
+            bits |= (chosen_bits(_mm256_inserti128_si256(_mm256_setzero_si256(), some, 0)) & 0xFFFF)
+                    << k;
+            k += 16;
         }
-        return bits & ~std::uint64_t{0} >> (64 - count);
     }
 #endif
-    for (int k = 0; k < count; ++k) bits |= std::uint64_t{bytes[places[k]] != 0} << k;
+    for (; k < count; ++k) bits |= std::uint64_t{bytes[places[k]] != 0} << k;
     return bits;
 }
 
