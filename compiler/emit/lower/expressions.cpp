@@ -1,3 +1,4 @@
+// Over 400 lines: a function for each form of the IR.
 #include "emit/lower/expressions.hpp"
 
 #include "emit/cpp/literals.hpp"
