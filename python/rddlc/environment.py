@@ -48,6 +48,8 @@ class RDDLEnv(ProblemProperties, gymnasium.Env[Any, Any]):
         "render_fps": 10,
     }
 
+    _np_random_seed: int | None = None  # which Gymnasium sets since 1.0
+
     def __init__(
         self,
         problem: Problem,

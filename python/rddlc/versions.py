@@ -34,3 +34,8 @@ else:
         VectorBase = VectorEnv[Any, Any, NDArray[Any]]
     else:
         VectorBase = object
+
+
+def sample_arguments(mask: Any, probability: Any) -> tuple[Any, ...]:
+    """The arguments of a space's `sample`, which has had a probability since Gymnasium 1.1."""
+    return (mask,) if probability is None else (mask, probability)

@@ -9,6 +9,7 @@ import numpy as np
 from support import TEXTS, example, problem_of
 
 import rddlc
+from rddlc.versions import HAS_VECTORS
 
 FORMS = (
     {},
@@ -51,6 +52,7 @@ class NativeWriters(unittest.TestCase):
                         if quick.get_state().causes:
                             break
 
+    @unittest.skipUnless(HAS_VECTORS, "vectors need gymnasium 1.0")
     def test_batches_step_alike(self) -> None:
         for problem in PROBLEMS:
             for actions in ("simplified", "dict"):

@@ -137,7 +137,7 @@ TEST_F(Cache, LoadsNothingThatOthersMayHaveWritten) {
         EXPECT_NE(outcome.err.find("others may write to the folder"), std::string::npos)
             << outcome.err;
         EXPECT_NE(outcome.err.find("chmod go-w"), std::string::npos) << outcome.err;
-        EXPECT_EQ(run(run_it + " --engine=interpreter").status, 0);
+        EXPECT_EQ(run("run domain.rddl instance.rddl --engine interpreter --quiet").status, 0);
     }
     fs::permissions(folder, fs::perms::owner_all);
 

@@ -239,7 +239,7 @@ class Externals(CommandTest):
         result = self.run_with("--extern=broken.so", "--engine=interpreter")
         self.assertEqual(result.status, DIAGNOSED)
         self.assertIn("cannot load 'broken.so'", result.errors)
-        for refused in (self.run_with("--extern=broken.so"),
+        for refused in (self.run_with("--extern=broken.so", "--engine=compiled"),
                         self.run_command(RDDLC, "tank.rddl", "--extern=broken.so")):
             self.assertEqual(refused.status, USAGE)
             self.assertIn("C++ header", refused.errors)

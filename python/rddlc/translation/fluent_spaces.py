@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from ..model import Fluent, Model
 from ..records import STORED, Column, columns_of
+from ..versions import sample_arguments
 
 
 class ActionDict(spaces.Dict):
@@ -39,7 +40,7 @@ class ActionDict(spaces.Dict):
 
     def sample(self, mask: Any | None = None, probability: Any | None = None) -> dict[str, Any]:
         """A sample of each value; all but `limit` of them, which are drawn, get their default."""
-        sampled = super().sample(mask, probability)
+        sampled = super().sample(*sample_arguments(mask, probability))
         sizes = [default.size for default in self.defaults.values()]
         kept = np.zeros(sum(sizes), bool)
         kept[self.np_random.permutation(kept.size)[: self.limit]] = True
@@ -68,7 +69,7 @@ class ActionDictBatch(spaces.Dict):
         return super().seed(seed)
 
     def sample(self, mask: Any | None = None, probability: Any | None = None) -> dict[str, Any]:
-        rows = [self.single.sample(mask, probability) for _ in range(self.count)]
+        rows = [self.single.sample(*sample_arguments(mask, probability)) for _ in range(self.count)]
         return {key: np.stack([row[key] for row in rows]) for key in self.spaces}
 
     def contains(self, x: Any) -> bool:

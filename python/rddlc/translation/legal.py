@@ -12,6 +12,7 @@ import numpy as np
 from gymnasium import spaces
 from numpy.typing import NDArray
 
+from ..versions import sample_arguments
 from .protocols import ActionWriter
 
 Array = NDArray[Any]
@@ -41,10 +42,8 @@ class _Legal(spaces.Space[Any]):
     _sampler: _Sampler
 
     def sample(self, mask: Any | None = None, probability: Any | None = None) -> Any:
-        if probability is not None:  # since gymnasium 1.1
-            return super().sample(mask, probability)
-        if mask is not None:
-            return super().sample(mask)
+        if mask is not None or probability is not None:
+            return super().sample(*sample_arguments(mask, probability))
         return self._sampler.sample(super().sample, self.np_random)
 
     def __reduce__(self) -> tuple[Any, ...]:
