@@ -255,7 +255,7 @@ class PlaceReading {
     ir::Builder builder_;
     ir::Evaluator evaluator_;
 
-    // Of the loop at hand.
+    // Members of the loop at hand.
     ir::Nest nest_;
     std::string name_;  // of what it fills
     Span span_;

@@ -7,7 +7,7 @@
 //                                         =>
 //             next.at[x, y] = at-table[x, y] && element(state.at, at-places[x, y])
 //
-// What else constants decide in such a loop becomes a table of its objects, too; and an exists or
+// Other values that constants decide in such a loop also become tables of its objects; an exists or
 // forall over the few entries of a row becomes its terms:
 //
 //     next.up[c] = exists[entry in LINK-rows[c] .. LINK-rows[c + 1]](state.up[LINK-d[entry]])

@@ -16,7 +16,7 @@ namespace rddlc::passes {
 namespace {
 
 constexpr std::int64_t bits_in_a_word = 64;
-// Of more objects, a loop that only counts has enough of them for its registers.
+// A loop over more objects that only counts has enough of them for its registers.
 constexpr std::int64_t most_counted = 16 * bits_in_a_word;
 // Registers look up bools in tables of so many (read_places.hpp).
 constexpr std::int64_t most_looked_up = 256;
@@ -69,7 +69,7 @@ class CountSeparation {
         return sum(term, nest, before);
     }
 
-    // Of plus or minus bools; nothing if it is of something else.
+    // The sum of plus or minus bools; nothing if it is a sum of something else.
     std::optional<ir::NodeId> sum(ir::NodeId term, const ir::Nest& nest, ir::Block& before) {
         if (program_[term].type != ir::Scalar::Int) return std::nullopt;
         if (const auto* apply = std::get_if<ir::Apply>(&program_[term].form)) {

@@ -1,5 +1,5 @@
-// What is counted is computed before it, if it stands at different places of tables: in words of
-// bools, whose bits are counted.
+// The bools that an aggregation counts are computed before it, if they stand at different places of
+// tables: in words of bools, whose bits are counted.
 //
 //     reward = real(sum[c in cell](int(state.up[c] && state.up[NEXT-c[c]])))
 //                                         =>
