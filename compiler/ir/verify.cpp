@@ -4,13 +4,13 @@
 #include "ir/analysis.hpp"
 #include "ir/call.hpp"
 #include "ir/print.hpp"
+#include "support/failure.hpp"
 #include "support/match.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <cstdlib>
 #include <map>
 #include <set>

@@ -4,22 +4,25 @@
 namespace rddlc::cli {
 namespace {
 
-// A goal behind costs: each of twelve steps to the right costs 1, and the last one pays 100. Who
-// acts at random never gets there, so that learners find out that it is best to stay.
+// A goal behind costs: each of twelve steps costs 1, to the right and to the left in turn, and the
+// last one pays 100. A wrong step leads back to the beginning, so that random actions never get
+// there, and learners find out that it is best to stay.
 constexpr const char* corridor = R"(
 domain corridor {
     pvariables {
         place : { state-fluent, int, default = 0 };
+        even  : { state-fluent, bool, default = true };
         right : { action-fluent, bool, default = false };
         left  : { action-fluent, bool, default = false };
     };
     cpfs {
         place' = if (place >= 12) then place
-                 else if (right ^ ~left) then place + 1
-                 else if (left) then 0 else place;
+                 else if (even ^ right | ~even ^ left) then place + 1
+                 else if (left | right) then 0 else place;
+        even' = if (even ^ right | ~even ^ left) then ~even else if (left | right) then true else even;
     };
     reward = if (place >= 12) then 0.0
-             else (if (right ^ ~left ^ place == 11) then 100.0 else 0.0) - (if (right | left) then 1.0 else 0.0);
+             else (if (place == 11 ^ left) then 100.0 else 0.0) - (if (right | left) then 1.0 else 0.0);
 }
 non-fluents n { domain = corridor; }
 instance corridor_1 { domain = corridor; non-fluents = n; max-nondef-actions = 1; horizon = 14; discount = 1.0; }
