@@ -4,6 +4,7 @@
 
 #include <random>
 #include <string>
+#include <string_view>
 
 namespace rddlc::lsp {
 namespace {
@@ -73,13 +74,14 @@ TEST(OutlineTest, WhatFollowsAMistakeIsFound) {
 }
 
 TEST(OutlineTest, AnyBytesAreSurvived) {
+    constexpr std::string_view bytes("{}()[];:_?@'\"\0\xFF =~", 18);
     std::mt19937 random(2);
     for (int round = 0; round < 3000; ++round) {
         std::string text = problem;
         const std::size_t begin = random() % text.size();
         text.erase(begin, random() % 40);
         for (int change = 0; change < 4; ++change)
-            text[random() % text.size()] = "{}()[];:_?@'\"\0\xFF =~"[random() % 20];
+            text[random() % text.size()] = bytes[random() % bytes.size()];
         const Outline outline = outline_of(text);
         for (const Occurrence& each : outline.occurrences) {
             ASSERT_LE(each.name.place.begin, each.name.place.end);
