@@ -30,7 +30,7 @@ cmake --build build
 
 step "3/4 build with sanitizers"
 cmake -S . -B build/sanitize -G Ninja --log-level=WARNING -DRDDLC_BUILD_TESTS=ON \
-    -DRDDLC_SANITIZE=ON -DCMAKE_BUILD_TYPE=None -DCMAKE_CXX_FLAGS="-O1 -g1"  # twice as fast as -O2
+    -DRDDLC_SANITIZE=ON -DCMAKE_BUILD_TYPE=None -DCMAKE_CXX_FLAGS="-Og -g1"  # builds in 4:41, -O1 in 6:16
 cmake --build build/sanitize --target sanitized_tests
 
 step "4/4 tests"
