@@ -3,7 +3,7 @@
 #include "ir/analysis.hpp"
 #include "ir/builder.hpp"
 #include "ir/call.hpp"
-#include "ir/nest.hpp"
+#include "ir/fill_table.hpp"
 #include "ir/reduction_nest.hpp"
 #include "passes/aggregations/fuse_interm_fluents.hpp"
 #include "passes/aggregations/make_aggregations_sparse.hpp"
@@ -132,10 +132,8 @@ class DetailsBuilder {
     }
     void fill(BufferId target, const std::vector<ir::VariableId>& variables, ir::NodeId value,
               ir::Block before, Span span) {
-        ir::Block store;
-        store.push_back({ir::Store{target, indices(variables), value}});
         ir::Block body = std::move(before);
-        std::ranges::move(ir::looped(std::move(store), variables), std::back_inserter(body));
+        ir::fill_table(builder_, body, target, variables, value);
         program_.step.push_back({target, std::move(body), span});
     }
 

@@ -53,6 +53,12 @@ Block looped(Block body, const std::vector<VariableId>& variables) {
     return body;
 }
 
+std::int64_t combinations(const Program& program, std::span<const VariableId> variables) {
+    std::int64_t count = 1;
+    for (const VariableId variable : variables) count *= program[variable].size;
+    return count;
+}
+
 bool is_place_in(const Program& program, const Nest& nest, NodeId id) {
     return is_place(program, nest.variables, id);
 }

@@ -4,6 +4,8 @@
 #include "ir/analysis.hpp"
 #include "ir/ir.hpp"
 
+#include <cstdint>
+#include <span>
 #include <variant>
 #include <vector>
 
@@ -25,6 +27,9 @@ Block& innermost_body(Loop& outermost);
 // The reverse of nest_of: loops over these variables, outermost first, around a body; without any,
 // the body.
 Block looped(Block body, const std::vector<VariableId>& variables);
+
+// The number of combinations of the variables' values; 1 without any variable.
+std::int64_t combinations(const Program& program, std::span<const VariableId> variables);
 
 // The row-major place among all combinations.
 bool is_place_in(const Program& program, const Nest& nest, NodeId id);

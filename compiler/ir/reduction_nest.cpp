@@ -18,6 +18,13 @@ std::optional<ReductionNest> reduction_nest(const Program& program, NodeId id,
     return nest;
 }
 
+std::optional<ReductionNest> whole_reduction_nest(const Program& program, NodeId id, Reduction op) {
+    auto nest = reduction_nest(program, id);
+    if (!nest || nest->op != op || std::holds_alternative<Reduce>(program[nest->body].form))
+        return std::nullopt;
+    return nest;
+}
+
 NodeId reduced(Builder& builder, Reduction op, std::span<const VariableId> variables, NodeId body) {
     for (const VariableId variable : std::views::reverse(variables))
         body = builder.reduce(op, variable, body);

@@ -24,6 +24,9 @@ struct ReductionNest {
 std::optional<ReductionNest> reduction_nest(
     const Program& program, NodeId id, const std::function<bool(const Reduce&)>& enters = nullptr);
 
+// The same for a node that is a reduction by `op` and whose nest has a body that is no reduction.
+std::optional<ReductionNest> whole_reduction_nest(const Program& program, NodeId id, Reduction op);
+
 // The reverse: reductions over these variables, outermost first, around a body; without any, the
 // body.
 NodeId reduced(Builder& builder, Reduction op, std::span<const VariableId> variables, NodeId body);

@@ -11,18 +11,9 @@
 namespace rddlc::passes {
 namespace {
 
-// The nest of a node that is a reduction by this operator. Its body must not be a reduction.
-std::optional<ir::ReductionNest> whole_nest(const ir::Program& program, ir::NodeId id,
-                                            Reduction op) {
-    auto nest = ir::reduction_nest(program, id);
-    if (!nest || nest->op != op || std::holds_alternative<ir::Reduce>(program[nest->body].form))
-        return std::nullopt;
-    return nest;
-}
-
 // The nest of a sum that counts where a bool is true; its body is the bool.
 std::optional<ir::ReductionNest> counted(const ir::Program& program, ir::NodeId id) {
-    std::optional<ir::ReductionNest> nest = whole_nest(program, id, Reduction::Sum);
+    std::optional<ir::ReductionNest> nest = ir::whole_reduction_nest(program, id, Reduction::Sum);
     if (!nest || program[id].type != ir::Scalar::Int) return std::nullopt;
     const auto* convert = std::get_if<ir::Convert>(&program[nest->body].form);
     if (!convert) return std::nullopt;
@@ -71,12 +62,12 @@ class Comparing {
         const auto count_of = [&](const ir::ReductionNest& nest, ir::NodeId condition) {
             return counts.find({Reduction::Sum, nest.variables, condition});
         };
-        if (const auto nest = whole_nest(program_, id, Reduction::Exists)) {
+        if (const auto nest = ir::whole_reduction_nest(program_, id, Reduction::Exists)) {
             const auto count = count_of(*nest, nest->body);
             if (count != counts.end())
                 return builder_.apply(Operator::Greater, {count->second, zero});
         }
-        if (const auto nest = whole_nest(program_, id, Reduction::ForAll)) {
+        if (const auto nest = ir::whole_reduction_nest(program_, id, Reduction::ForAll)) {
             const auto count = count_of(*nest, builder_.apply(Operator::Not, {nest->body}));
             if (count != counts.end())
                 return builder_.apply(Operator::Equal, {count->second, zero});

@@ -63,16 +63,11 @@ class BitCounting {
 
     // sum(int(a) - int(b)) = sum(int(a)) - sum(int(b)), if bits count both; ints wrap around.
     std::optional<ir::NodeId> sum_of_parts(ir::NodeId id) {
-        std::vector<ir::Reduce> levels;
-        ir::NodeId term = id;
-        while (const auto* level = std::get_if<ir::Reduce>(&program_[term].form)) {
-            if (level->op != Reduction::Sum) return std::nullopt;
-            levels.push_back(*level);
-            term = level->body;
-        }
+        const auto [levels, term] = levels_of(id);
         const auto* apply = std::get_if<ir::Apply>(&program_[term].form);
         const bool has_parts =
-            !levels.empty() && apply && program_[term].type == ir::Scalar::Int &&
+            !levels.empty() && levels.front().op == Reduction::Sum && apply &&
+            program_[term].type == ir::Scalar::Int &&
             is_one_of(apply->op, {Operator::Negate, Operator::Add, Operator::Subtract});
         if (!has_parts) return std::nullopt;
         const ir::Apply parts = *apply;
@@ -89,15 +84,22 @@ class BitCounting {
 
     // ------------------------------------------------------------------------------ finding
 
-    std::optional<CountedNest> nest_of(ir::NodeId id) const {
-        const auto* outermost = std::get_if<ir::Reduce>(&program_[id].form);
-        if (!outermost) return std::nullopt;
-        CountedNest nest{outermost->op, {}, id};
-        while (const auto* level = std::get_if<ir::Reduce>(&program_[nest.condition].form)) {
-            if (level->op != nest.op) break;
-            nest.levels.push_back(*level);
-            nest.condition = level->body;
+    // Reductions by one operator right inside each other, also over rows (ir::ReductionNest has
+    // whole ranges alone): the outermost first, and the body.
+    std::pair<std::vector<ir::Reduce>, ir::NodeId> levels_of(ir::NodeId id) const {
+        std::vector<ir::Reduce> levels;
+        while (const auto* level = std::get_if<ir::Reduce>(&program_[id].form)) {
+            if (!levels.empty() && level->op != levels.front().op) break;
+            levels.push_back(*level);
+            id = level->body;
         }
+        return {std::move(levels), id};
+    }
+
+    std::optional<CountedNest> nest_of(ir::NodeId id) const {
+        auto [levels, body] = levels_of(id);
+        if (levels.empty()) return std::nullopt;
+        CountedNest nest{levels.front().op, std::move(levels), body};
         if (nest.op == Reduction::Sum) {
             const auto* convert = std::get_if<ir::Convert>(&program_[nest.condition].form);
             if (!convert || program_[id].type != ir::Scalar::Int) return std::nullopt;

@@ -1,7 +1,7 @@
 #include "passes/aggregations/hoist_aggregations.hpp"
 
 #include "ir/call.hpp"
-#include "ir/nest.hpp"
+#include "ir/fill_table.hpp"
 #include "ir/rewrite.hpp"
 #include "support/match.hpp"
 
@@ -167,12 +167,7 @@ class Hoisting {
             find_tables(operand, inner, dimensions.size(), before);
         }
         const ir::BufferId table = new_table(id, dimensions);
-        std::vector<ir::NodeId> indices;
-        for (ir::VariableId variable : dimensions) indices.push_back(builder_.index(variable));
-        ir::Block fill;
-        fill.push_back({ir::Store{table, indices, replaced(id)}});
-        std::ranges::move(ir::looped(std::move(fill), dimensions), std::back_inserter(before));
-        elements_[id] = builder_.load(table, indices);
+        elements_[id] = ir::fill_table(builder_, before, table, dimensions, replaced(id));
         replaced_.clear();
         ++report_["tables filled before loops"];
     }

@@ -23,9 +23,7 @@ bool differs(const ir::Program& program, ir::NodeId id, const ir::Nest& nest) {
 }  // namespace
 
 bool are_many(const ir::Program& program, const ir::Nest& nest) {
-    std::int64_t count = 1;
-    for (const ir::VariableId variable : nest.variables) count *= program[variable].size;
-    return count > few_objects;
+    return ir::combinations(program, nest.variables) > few_objects;
 }
 
 bool is_of_bools(const ir::Program& program, ir::NodeId id, const ir::Nest& nest,

@@ -11,6 +11,10 @@
 
 namespace rddlc::passes {
 
+inline constexpr std::int64_t bools_in_a_word = 64;
+// Registers look up bools by their places in tables of at most so many.
+inline constexpr std::int64_t most_looked_up_bools = 256;
+
 // Fewer objects fit what a loop over several objects has at once anyway.
 bool are_many(const ir::Program& program, const ir::Nest& nest);
 

@@ -1,14 +1,14 @@
 #include "passes/analyses/constant_values.hpp"
 
+#include "ir/nest.hpp"
+
 namespace rddlc::passes {
 
 std::optional<std::vector<ir::Value>> constant_values(const ir::Evaluator& evaluator,
                                                       const ir::Program& program, ir::NodeId id,
                                                       const std::vector<ir::VariableId>& variables,
                                                       const std::optional<Assumed>& assumed) {
-    std::int64_t count = 1;
-    for (ir::VariableId variable : variables) count *= program[variable].size;
-
+    const std::int64_t count = ir::combinations(program, variables);
     Context context;
     ir::Evaluator::Frame frame(evaluator, {}, context);
     if (assumed) evaluator.set(assumed->local, assumed->value, frame);

@@ -21,9 +21,7 @@ ObjectLanes::ObjectLanes(const ir::Program& program, PropertiesOf properties_of,
       is_element_(std::move(is_element)) {}
 
 bool ObjectLanes::are_enough() const {
-    std::int64_t iterations = 1;
-    for (const ir::VariableId variable : nest_.variables) iterations *= program_[variable].size;
-    return iterations >= fewest_iterations;
+    return ir::combinations(program_, nest_.variables) >= fewest_iterations;
 }
 
 bool ObjectLanes::can_evaluate(ir::NodeId id) const {

@@ -2,6 +2,7 @@
 
 #include "ir/nest.hpp"
 #include "ir/rewrite.hpp"
+#include "passes/analyses/bool_words.hpp"
 #include "passes/analyses/constant_values.hpp"
 #include "passes/analyses/object_lanes.hpp"
 
@@ -17,8 +18,6 @@ namespace {
 // An aggregation of more terms stays a loop; so does one of several terms that objects have less
 // than half of on average.
 constexpr std::int64_t most_terms = 8;
-// Registers look up bools in tables of so many.
-constexpr std::int64_t most_bools = 256;
 // Tables of more objects are not worth their memory.
 constexpr std::int64_t most_objects = 1 << 16;
 
@@ -74,11 +73,7 @@ class PlaceReading {
         ++report_["loops that read bools by their places"];
     }
 
-    std::int64_t object_count() const {
-        std::int64_t count = 1;
-        for (const ir::VariableId variable : nest_.variables) count *= program_[variable].size;
-        return count;
-    }
+    std::int64_t object_count() const { return ir::combinations(program_, nest_.variables); }
 
     bool reads(ir::NodeId id, ir::BufferId buffer) const {
         return ir::buffer_read_by(program_[id]) == buffer ||
@@ -110,7 +105,7 @@ class PlaceReading {
     bool is_chosen(ir::NodeId id) const {
         const auto* load = std::get_if<ir::Load>(&program_[id].form);
         if (!load || program_[id].type != ir::Scalar::Bool || builder_.properties(id).uniform ||
-            program_[load->buffer].count() > most_bools)
+            program_[load->buffer].count() > most_looked_up_bools)
             return false;
         const bool is_fixed = std::ranges::all_of(load->indices, [&](ir::NodeId index) {
             return is_of_objects(index) ||

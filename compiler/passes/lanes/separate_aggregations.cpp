@@ -1,6 +1,8 @@
 #include "passes/lanes/separate_aggregations.hpp"
 
+#include "ir/fill_table.hpp"
 #include "ir/nest.hpp"
+#include "ir/reduction_nest.hpp"
 #include "ir/rewrite.hpp"
 #include "passes/analyses/object_lanes.hpp"
 
@@ -122,36 +124,18 @@ class Separation {
         const bool is_branch = std::holds_alternative<ir::Select>(program_[id].form);
         if (is_branch) return id;  // what is in it is not always evaluated
         if (!std::holds_alternative<ir::Reduce>(program_[id].form)) return std::nullopt;
-        auto [variables, term] = sum_of_reals(id);
-        if (!is_worth_a_table(variables, term)) return id;
+        const auto sum = ir::reduction_nest(program_, id);
+        if (!sum || sum->op != Reduction::Sum || !is_worth_a_table(sum->variables, sum->body))
+            return id;
         report_["sums whose terms are computed before"] += 1;
-        ir::NodeId sum = table_of(term, "terms", variables, before);
+        const ir::NodeId term = table_of(sum->body, "terms", sum->variables, before);
         std::get<ir::Loop>(before.back().form).several_at_once = true;
-        for (auto variable = variables.rbegin(); variable != variables.rend(); ++variable)
-            sum = builder_.reduce(Reduction::Sum, *variable, sum, {});
-        return sum;
-    }
-
-    // Sums right inside each other: their variables, outermost first, and the terms.
-    struct Sum {
-        Variables variables;
-        ir::NodeId term;
-    };
-    Sum sum_of_reals(ir::NodeId id) const {
-        Sum sum{{}, id};
-        const ir::Reduce* reduce = std::get_if<ir::Reduce>(&program_[id].form);
-        while (reduce && reduce->op == Reduction::Sum && !reduce->bounds &&
-               program_[sum.term].type == ir::Scalar::Real) {
-            sum.variables.push_back(reduce->variable);
-            sum.term = reduce->body;
-            reduce = std::get_if<ir::Reduce>(&program_[sum.term].form);
-        }
-        return sum;
+        return ir::reduced(builder_, sum->op, sum->variables, term);
     }
 
     bool is_worth_a_table(const Variables& variables, ir::NodeId term) const {
         const ir::Properties& properties = builder_.properties(term);
-        if (variables.empty() || properties.may_fault || properties.random ||
+        if (program_[term].type != ir::Scalar::Real || properties.may_fault || properties.random ||
             properties.cost < worth_separating || !is_over(properties, variables))
             return false;
         const ObjectLanes several = several_of({variables, nullptr}, nullptr);
@@ -165,12 +149,7 @@ class Separation {
                         ir::Block& before) {
         const ir::BufferId table = builder_.tables().scratch(
             name_ + "-" + what, program_[id].type, builder_.properties(id).range, variables, span_);
-        std::vector<ir::NodeId> indices;
-        for (const ir::VariableId variable : variables) indices.push_back(builder_.index(variable));
-        ir::Block fill;
-        fill.push_back({ir::Store{table, indices, id}});
-        std::ranges::move(ir::looped(std::move(fill), variables), std::back_inserter(before));
-        return builder_.load(table, indices);
+        return ir::fill_table(builder_, before, table, variables, id);
     }
 
     ObjectLanes several_of(const ir::Nest& nest, std::function<bool(ir::NodeId)> is_element) const {

@@ -1,12 +1,13 @@
 #include "passes/lanes/separate_counts.hpp"
 
+#include "ir/fill_table.hpp"
 #include "ir/nest.hpp"
+#include "ir/reduction_nest.hpp"
 #include "ir/rewrite.hpp"
 #include "passes/analyses/bool_words.hpp"
 
 #include <algorithm>
 #include <cstdint>
-#include <iterator>
 #include <map>
 #include <string>
 #include <utility>
@@ -15,11 +16,8 @@
 namespace rddlc::passes {
 namespace {
 
-constexpr std::int64_t bits_in_a_word = 64;
 // A loop over more objects that only counts has enough of them for its registers.
-constexpr std::int64_t most_counted = 16 * bits_in_a_word;
-// Registers look up bools in tables of so many (read_places.hpp).
-constexpr std::int64_t most_looked_up = 256;
+constexpr std::int64_t most_counted = 16 * bools_in_a_word;
 
 class CountSeparation {
   public:
@@ -59,14 +57,9 @@ class CountSeparation {
     }
 
     std::optional<ir::NodeId> counted(ir::NodeId id, ir::Block& before) {
-        ir::Nest nest{{}, nullptr};
-        ir::NodeId term = id;
-        while (const auto* level = std::get_if<ir::Reduce>(&program_[term].form)) {
-            if (level->op != Reduction::Sum || level->bounds) return std::nullopt;
-            nest.variables.push_back(level->variable);
-            term = level->body;
-        }
-        return sum(term, nest, before);
+        const auto nest = ir::whole_reduction_nest(program_, id, Reduction::Sum);
+        if (!nest) return std::nullopt;
+        return sum(nest->body, {nest->variables, nullptr}, before);
     }
 
     // The sum of plus or minus bools; nothing if it is a sum of something else.
@@ -82,7 +75,7 @@ class CountSeparation {
         if (!convert || !can_fill_words(convert->operand, nest)) return std::nullopt;
         const ir::BufferId table = table_of(convert->operand, nest, before);
         ir::NodeId total = builder_.constant(std::int64_t{0});
-        for (std::int64_t first = 0; first < program_[table].count(); first += bits_in_a_word) {
+        for (std::int64_t first = 0; first < program_[table].count(); first += bools_in_a_word) {
             const ir::NodeId bits = builder_.bits(table, first);
             total =
                 builder_.apply(Operator::Add, {total, builder_.apply(Operator::CountOnes, {bits})});
@@ -92,9 +85,8 @@ class CountSeparation {
     }
 
     bool can_fill_words(ir::NodeId id, const ir::Nest& nest) const {
-        std::int64_t count = 1;
-        for (const ir::VariableId variable : nest.variables) count *= program_[variable].size;
-        return count <= most_counted && are_many(program_, nest) &&
+        return ir::combinations(program_, nest.variables) <= most_counted &&
+               are_many(program_, nest) &&
                is_of_bools(program_, id, nest,
                            [&](ir::NodeId each) { return is_at_known_place(each); }) &&
                ir::is_droppable(builder_.properties(id));
@@ -103,7 +95,7 @@ class CountSeparation {
     bool is_at_known_place(ir::NodeId id) const {
         const auto* load = std::get_if<ir::Load>(&program_[id].form);
         return load && program_[id].type == ir::Scalar::Bool &&
-               program_[load->buffer].count() <= most_looked_up &&
+               program_[load->buffer].count() <= most_looked_up_bools &&
                std::ranges::all_of(load->indices, [&](ir::NodeId index) {
                    return builder_.properties(index).uniform;
                });
@@ -112,15 +104,9 @@ class CountSeparation {
     ir::BufferId table_of(ir::NodeId id, const ir::Nest& nest, ir::Block& before) {
         const ir::BufferId table = builder_.tables().scratch(name_ + "-bools", ir::Scalar::Bool, {},
                                                              nest.variables, span_);
-        std::vector<ir::NodeId> indices;
-        for (const ir::VariableId variable : nest.variables)
-            indices.push_back(builder_.index(variable));
-        ir::Block fill;
-        fill.push_back({ir::Store{table, std::move(indices), id}});
-        ir::Block loop = ir::looped(std::move(fill), nest.variables);
-        auto& outermost = std::get<ir::Loop>(loop.front().form);
-        outermost.several_at_once = outermost.as_words = true;
-        std::ranges::move(loop, std::back_inserter(before));
+        ir::fill_table(builder_, before, table, nest.variables, id);
+        auto& loop = std::get<ir::Loop>(before.back().form);
+        loop.several_at_once = loop.as_words = true;
         return table;
     }
 

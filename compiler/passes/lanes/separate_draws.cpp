@@ -1,11 +1,10 @@
 #include "passes/lanes/separate_draws.hpp"
 
+#include "ir/fill_table.hpp"
 #include "ir/nest.hpp"
 #include "ir/rewrite.hpp"
 #include "passes/analyses/bool_words.hpp"
 
-#include <algorithm>
-#include <iterator>
 #include <map>
 #include <string>
 #include <utility>
@@ -16,7 +15,7 @@ namespace {
 
 // More draws of a loop stay in it: each takes two loops more.
 constexpr std::size_t most_draws = 2;
-// In operations (Properties::cost): what is worth writing bools to tables and reading them again.
+// Operations (Properties::cost) that are worth writing bools to tables and reading them again.
 constexpr double worth_two_loops = 8;
 // The part of what is left that the conditions of draws may cost.
 constexpr double most_computed_again = 0.25;
@@ -74,7 +73,7 @@ class DrawSeparation {
         ++report_["loops whose draws are made before"];
     }
 
-    // Also when each is made.
+    // Finds the draws, and for each the condition under which it is made.
     void collect_draws(ir::NodeId id, ir::NodeId condition) {
         const ir::Node node = program_[id];
         if (std::holds_alternative<ir::Sample>(node.form)) {
@@ -100,16 +99,11 @@ class DrawSeparation {
                         ir::Block& before) {
         const ir::BufferId table =
             builder_.tables().scratch(name_ + "-" + what, ir::Scalar::Bool, {}, variables, span_);
-        std::vector<ir::NodeId> indices;
-        for (const ir::VariableId variable : variables) indices.push_back(builder_.index(variable));
-        ir::Block fill;
-        fill.push_back({ir::Store{table, indices, id}});
-        ir::Block loop = ir::looped(std::move(fill), variables);
-        auto& outermost = std::get<ir::Loop>(loop.front().form);
-        outermost.several_at_once = true;
-        outermost.as_words = as_words;
-        std::ranges::move(loop, std::back_inserter(before));
-        return builder_.load(table, indices);
+        const ir::NodeId element = ir::fill_table(builder_, before, table, variables, id);
+        auto& loop = std::get<ir::Loop>(before.back().form);
+        loop.several_at_once = true;
+        loop.as_words = as_words;
+        return element;
     }
 
     ir::Program program_;

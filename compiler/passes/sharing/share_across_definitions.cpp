@@ -1,7 +1,7 @@
 #include "passes/sharing/share_across_definitions.hpp"
 
 #include "ir/call.hpp"
-#include "ir/nest.hpp"
+#include "ir/fill_table.hpp"
 #include "ir/rewrite.hpp"
 #include "support/match.hpp"
 
@@ -180,14 +180,9 @@ class DefinitionSharing {
         for (const Shared& shared : shared_) {
             const std::vector<ir::VariableId> variables =
                 builder_.properties(shared.id).free_variables;
-            std::vector<ir::NodeId> indices;
-            for (ir::VariableId variable : variables) indices.push_back(builder_.index(variable));
             const ir::NodeId value = ir::replace_in(builder_, shared.id, known);
-            known[shared.id] = builder_.load(shared.table, indices);
-            ir::Block fill;
-            fill.push_back({ir::Store{shared.table, indices, value}});
-            std::ranges::move(ir::looped(std::move(fill), variables),
-                              std::back_inserter(fills[shared.first_user]));
+            known[shared.id] =
+                ir::fill_table(builder_, fills[shared.first_user], shared.table, variables, value);
             ++report_["expressions computed once for several CPFs"];
         }
         if (shared_.empty()) return;
