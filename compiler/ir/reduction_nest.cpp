@@ -1,7 +1,5 @@
 #include "ir/reduction_nest.hpp"
 
-#include <ranges>
-
 namespace rddlc::ir {
 
 std::optional<ReductionNest> reduction_nest(const Program& program, NodeId id,
@@ -26,8 +24,8 @@ std::optional<ReductionNest> whole_reduction_nest(const Program& program, NodeId
 }
 
 NodeId reduced(Builder& builder, Reduction op, std::span<const VariableId> variables, NodeId body) {
-    for (const VariableId variable : std::views::reverse(variables))
-        body = builder.reduce(op, variable, body);
+    for (auto variable = variables.rbegin(); variable != variables.rend(); ++variable)
+        body = builder.reduce(op, *variable, body);
     return body;
 }
 
