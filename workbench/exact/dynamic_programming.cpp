@@ -2,6 +2,7 @@
 
 #include "support/failure.hpp"
 #include "terminal/interrupt.hpp"
+#include "terminal/parallel.hpp"
 #include "terminal/progress.hpp"
 
 #include <algorithm>
@@ -36,7 +37,7 @@ class Sweeps {
         constexpr std::size_t together = 4096;
         const std::size_t parts = (count + together - 1) / together;
         changes_.assign(parts, 0);
-        in_parallel(parts, threads_, [&](std::size_t part) {
+        for_each_in_parallel(parts, threads_, [&](std::size_t part) {
             const std::size_t end = std::min<std::size_t>(count, (part + 1) * together);
             for (std::size_t s = part * together; s < end; ++s) {
                 improve(static_cast<StateNumber>(s));

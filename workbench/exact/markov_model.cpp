@@ -1,21 +1,16 @@
 #include "exact/markov_model.hpp"
 
 #include "exact/step_outcomes.hpp"
-#include "solvers/evaluation/threads.hpp"
 #include "support/failure.hpp"
 #include "terminal/interrupt.hpp"
-#include "terminal/progress.hpp"
+#include "terminal/parallel.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <cstring>
-#include <exception>
-#include <mutex>
 #include <numeric>
-#include <thread>
 
 namespace rddlc::workbench {
 
@@ -168,14 +163,15 @@ class Builder {
     void expand(StateNumber first, StateNumber end) {
         block_ = std::min<std::size_t>(states_at_once, end - first);
         constexpr std::size_t together = 16;
-        in_parallel((block_ + together - 1) / together, limits_.threads, [&](std::size_t part) {
+        const std::size_t parts = (block_ + together - 1) / together;
+        for_each_in_parallel(parts, limits_.threads, [&](std::size_t part) {
             Expansion expansion(interpreter_, model_.actions, limits_);
             for (std::size_t k = part * together; k < std::min(block_, (part + 1) * together); ++k)
                 expansion.expand(model_.states.record(first + static_cast<StateNumber>(k)),
                                  expanded_[k]);
         });
         for (std::size_t k = 0; k < block_; ++k) add(expanded_[k]);
-        require_room();
+        require_limits();
     }
 
     void add(const std::vector<Choice>& choices) {
@@ -192,7 +188,7 @@ class Builder {
         model_.first_choice.push_back(model_.action.size());
     }
 
-    void require_room() {
+    void require_limits() {
         give_up_if_interrupted("solving");
         const auto count = static_cast<std::int64_t>(model_.states.count());
         if (count > limits_.states)
@@ -234,29 +230,6 @@ MarkovModel markov_model(const ir::Interpreter& interpreter, std::vector<std::by
                          const ModelLimits& limits) {
     require_certain_conditions(interpreter.program());
     return Builder(interpreter, std::move(actions), limits).build();
-}
-
-void in_parallel(std::size_t count, int threads, const std::function<void(std::size_t)>& work) {
-    std::atomic<std::size_t> next = 0;
-    std::mutex mutex;
-    std::exception_ptr failure;  // the first
-    const auto work_until_done = [&] {
-        try {
-            for (std::size_t i = next++; i < count; i = next++) work(i);
-        } catch (...) {
-            const std::scoped_lock lock(mutex);
-            if (!failure) failure = std::current_exception();
-            next = count;
-        }
-    };
-    const int most = threads > 0 ? threads : static_cast<int>(std::thread::hardware_concurrency());
-    const int others =
-        std::min(most - 1, static_cast<int>(std::min<std::size_t>(count, 1 << 20)) - 1);
-    std::vector<std::thread> started =
-        others > 0 ? solvers::start_threads(others, work_until_done) : std::vector<std::thread>();
-    work_until_done();
-    for (std::thread& thread : started) thread.join();
-    if (failure) std::rethrow_exception(failure);
 }
 
 double count_of_states(const rddl_problem& problem) {

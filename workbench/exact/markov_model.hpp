@@ -8,7 +8,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <vector>
 
 namespace rddlc::workbench {
@@ -54,10 +53,6 @@ struct ModelLimits {
 // is not finite, or beyond the limits.
 MarkovModel markov_model(const ir::Interpreter& interpreter, std::vector<std::byte> actions,
                          const ModelLimits& limits);
-
-// Calls work(0) .. work(count - 1) from so many threads (0: one per core). What one of them throws
-// comes out of this.
-void in_parallel(std::size_t count, int threads, const std::function<void(std::size_t)>& work);
 
 // How many states a record can have: 2 for each bool, and so on; infinite where a number has no
 // bounds, or is real.

@@ -19,8 +19,8 @@ CheckOutcome check_quietly(const ProblemFiles& files) {
 
 std::vector<CheckOutcome> check_many(const std::vector<ProblemFiles>& files) {
     std::vector<CheckOutcome> outcomes(files.size());
-    for_each_in_parallel("checking", files.size(),
-                         [&](std::size_t i) { outcomes[i] = check_quietly(files[i]); });
+    for_each_with_progress("checking", files.size(),
+                           [&](std::size_t i) { outcomes[i] = check_quietly(files[i]); });
     return outcomes;
 }
 

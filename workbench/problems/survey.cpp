@@ -8,7 +8,7 @@ namespace rddlc::workbench {
 std::vector<SurveyedProblem> survey(const std::vector<RepositoryProblem>& problems) {
     std::vector<SurveyedProblem> listed;
     for (const RepositoryProblem& problem : problems) listed.push_back({problem, std::nullopt});
-    for_each_in_parallel("looking at problems", listed.size(), [&](std::size_t i) {
+    for_each_with_progress("looking at problems", listed.size(), [&](std::size_t i) {
         const RepositoryProblem& problem = listed[i].problem;
         if (problem.instances.empty()) return;
         const Compilation compilation = compile(
