@@ -7,6 +7,7 @@
 #include "planners/rollout/rollout_options.hpp"
 #include "planners/uct/uct.hpp"
 #include "planners/uct/uct_options.hpp"
+#include "solvers/batches/batch.hpp"
 #include "solvers/files/fingerprint.hpp"
 #include "support/diagnostic.hpp"
 #include "support/failure.hpp"
@@ -157,9 +158,7 @@ class PlanningActor {
         if (!planner_)
             planner_ = chosen_.make(
                 {simulator_, environments_, decision.horizon, settings_.memory_limit, base_});
-        const std::int64_t horizon = decision.horizon == 0                 ? problem.horizon
-                                     : decision.horizon == RDDL_NO_HORIZON ? 0
-                                                                           : decision.horizon;
+        const std::int64_t horizon = solvers::steps_of_horizon(problem, decision.horizon);
         if (base_) ask_base(decision);
         for (std::size_t i = 0; i < decision.running.size(); ++i) {
             if (!decision.running[i]) continue;

@@ -28,6 +28,12 @@ inline std::int64_t horizon_option(std::int64_t horizon) {
     return horizon == 0 ? RDDL_NO_HORIZON : horizon;
 }
 
+// The steps of an episode in a batch with that horizon option; 0: there is no limit.
+inline std::int64_t steps_of_horizon(const rddl_problem& problem, std::int64_t horizon) {
+    if (horizon == RDDL_NO_HORIZON) return 0;
+    return horizon == 0 ? problem.horizon : horizon;
+}
+
 // The bytes of one environment in a batch, with the records that go in and out: at least 1.
 std::int64_t bytes_per_environment(const rddl_simulator& simulator);
 

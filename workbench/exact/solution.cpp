@@ -192,7 +192,7 @@ class SolutionActor {
     // Infinitely many are the greatest number.
     std::int64_t steps_left(const solvers::Decision& decision, std::int64_t step) const {
         const std::int64_t horizon =
-            decision.horizon == 0 ? simulator_.problem->horizon : decision.horizon;
+            solvers::steps_of_horizon(*simulator_.problem, decision.horizon);
         return horizon > 0 ? std::max<std::int64_t>(1, horizon - step)
                            : std::numeric_limits<std::int64_t>::max();
     }
