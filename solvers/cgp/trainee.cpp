@@ -53,6 +53,9 @@ Trainee cgp_trainee(const rddl_simulator& simulator, const CgpOptions& options,
     };
     Trainee trainee;
     trainee.solver = "cgp";
+    trainee.advice =
+        "more --gens, another --seed, 'rddl train ppo', or a planner (--policy plan:cem or "
+        "plan:uct)";
     trainee.settings = settings_of(cgp_option_table(), options);
     trainee.ends_early = static_cast<bool>(options.stops);
     trainee.update = [=] {

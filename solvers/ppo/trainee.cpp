@@ -60,6 +60,9 @@ Trainee ppo_trainee(const rddl_simulator& simulator, const PpoOptions& options, 
     const auto total = static_cast<double>(options.steps);
     Trainee trainee;
     trainee.solver = "ppo";
+    trainee.advice =
+        "more --steps, another --seed, to begin as a planner or no-op acts (rddl train ppo "
+        "--imitate plan:cem), or 'rddl train cgp'";
     trainee.settings = settings_of(ppo_option_table(), trainer->options());
     if (const int rollout = trainer->options().rollout; rollout != options.rollout)
         trainee.note = fmt::format("--rollout is {} in place of {}, since this problem is large",

@@ -39,12 +39,6 @@ bool is_better(const Estimate& learned, const Estimate& baseline) {
     return learned.mean - baseline.mean > std::hypot(learned.half_width, baseline.half_width) / 2;
 }
 
-constexpr std::string_view advice_for_ppo =
-    "more --steps, another --seed, to begin as a planner or no-op acts (rddl train ppo --imitate "
-    "plan:cem), or 'rddl train cgp'";
-constexpr std::string_view advice_for_cgp =
-    "more --gens, another --seed, 'rddl train ppo', or a planner (--policy plan:cem or plan:uct)";
-
 }  // namespace
 
 std::string Baselines::text() const {
@@ -61,7 +55,7 @@ Baselines baselines(const rddl_simulator& simulator, const EpisodeOptions& optio
 }
 
 std::string complaint_about(const Estimate& learned, const Baselines& baselines,
-                            std::string_view solver) {
+                            std::string_view advice) {
     std::string others;
     const auto compare = [&](const char* name, const std::optional<Estimate>& baseline) {
         if (!baseline || is_better(learned, *baseline)) return;
@@ -71,7 +65,7 @@ std::string complaint_about(const Estimate& learned, const Baselines& baselines,
     compare("random actions", baselines.random);
     if (others.empty()) return {};
     return fmt::format("the best policy ({}) is no better than {}. If better is possible, try {}",
-                       text_of(learned), others, solver == "cgp" ? advice_for_cgp : advice_for_ppo);
+                       text_of(learned), others, advice);
 }
 
 }  // namespace rddlc::solvers

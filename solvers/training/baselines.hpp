@@ -22,14 +22,13 @@ struct Baselines {
     std::string text() const;
 };
 
-// In the episodes of `options`.
+// Plays the episodes of `options`.
 Baselines baselines(const rddl_simulator& simulator, const EpisodeOptions& options,
                     const std::function<bool()>& stops);
 
-// Where a policy with these returns is no better than a baseline, as far as its episodes tell: a
-// sentence that says so, and what to try. "" where it is better. `solver` is the one that has
-// learned it.
+// A message if a policy with these returns is no better than a baseline, as far as its episodes
+// show, and `advice`, which says what to try. "" if it is better.
 std::string complaint_about(const Estimate& learned, const Baselines& baselines,
-                            std::string_view solver);
+                            std::string_view advice);
 
 }  // namespace rddlc::solvers

@@ -73,7 +73,7 @@ class Training {
         if (has_best_ && !result_.interrupted)
             result_.no_better =
                 complaint_about({.mean = best_return_, .half_width = best_half_width_}, baselines_,
-                                trainee_.solver);
+                                trainee_.advice);
         if (!has_best_ && !result_.interrupted && !result_.not_finite.empty())
             throw Failure(fmt::format("no evaluation has a finite return: {}", result_.not_finite),
                           "'rddl run --trace' shows what leads there");

@@ -29,6 +29,7 @@ struct Trainee {
     std::string solver;       // "ppo"
     Settings settings;        // a resumed run has the same
     std::string note;         // what it has chosen that users may not expect, or ""
+    std::string advice;       // what to try if the policy is no better than no-op or random
     bool ends_early = false;  // update() does where TrainingOptions::stops says so
     // The first work of a new run. Returns a message about it; may be empty.
     std::function<std::string()> prepare = {};
