@@ -1,9 +1,9 @@
 #include "render/replay_page.hpp"
 
-#include "render/base64.hpp"
 #include "render/panels.hpp"
 #include "render/png.hpp"
 #include "render/state_text.hpp"
+#include "support/base64.hpp"
 
 #include <fmt/format.h>
 
@@ -103,7 +103,7 @@ void ReplayPage::add(const Snapshot& snapshot, const Picture& picture) {
              ",\"acts\":" + (snapshot.acts() ? "true" : "false") +
              ",\"action\":" + json_text(action_text(snapshot)) + ",\"end\":" + json_text(now.end) +
              ",\"values\":[" + values_of(snapshot) + "],\"picture\":\"" +
-             base64(small_png_bytes(picture)) + "\"}";
+             rddlc::base64(small_png_bytes(picture)) + "\"}";
 }
 
 std::string ReplayPage::html() const {

@@ -1,11 +1,11 @@
 #include "pictures/watch.hpp"
 
+#include "support/base64.hpp"
 #include "support/program.hpp"
 #include "support/utf8.hpp"
 #include "terminal/interrupt.hpp"
 
 #include <fmt/format.h>
-#include <render/base64.hpp>
 #include <render/png.hpp>
 #include <render/state_text.hpp>
 #include <sys/ioctl.h>
@@ -57,7 +57,7 @@ Size terminal_size() {
 // The kitty graphics protocol: a PNG in chunks of 4,096 characters, in place of the last one.
 std::string kitty_image(const std::string& png) {
     constexpr std::size_t chunk = 4096;
-    const std::string text = render::base64(png);
+    const std::string text = base64(png);
     std::string out = "\x1b_Ga=d\x1b\\";
     for (std::size_t at = 0; at < text.size(); at += chunk) {
         const bool more = at + chunk < text.size();
@@ -69,7 +69,7 @@ std::string kitty_image(const std::string& png) {
 
 // The inline images of iTerm2.
 std::string iterm_image(const std::string& png) {
-    return fmt::format("\x1b]1337;File=inline=1;size={}:{}\a\n", png.size(), render::base64(png));
+    return fmt::format("\x1b]1337;File=inline=1;size={}:{}\a\n", png.size(), base64(png));
 }
 
 // The characters that fit in the columns, without control sequences.
