@@ -11,6 +11,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <tuple>
 #include <type_traits>
 
 namespace rddl {
@@ -43,6 +44,19 @@ void for_each_snapshot_record(const rddl_problem& problem, std::size_t memory_si
     use(environment.last_action[0], static_cast<std::size_t>(problem.action_size));
 }
 
+// The same values of a head and of an environment, as references.
+template <class Head>
+auto values_in_head(Head& head) {
+    return std::tie(head.number, head.steps, head.key_low, head.key_high, head.stream, head.ends,
+                    head.has_fault);
+}
+template <class AnyEnvironment>
+auto values_in_environment(AnyEnvironment& environment) {
+    auto& episode = environment.episode;
+    return std::tie(episode.number, episode.steps, episode.key_low, episode.key_high,
+                    environment.stream, episode.ends, episode.has_fault);
+}
+
 constexpr std::size_t rounded_to_words(std::size_t size) {
     return (size + 7) / 8 * 8;
 }
@@ -62,13 +76,7 @@ inline void write_snapshot(const rddl_problem& problem, std::size_t memory_size,
     head.fingerprint = problem.fingerprint;
     head.size = snapshot_size(problem, memory_size);
     const Episodes<Scalar>& episode = environment.episode;
-    head.number = episode.number;
-    head.steps = episode.steps;
-    head.key_low = episode.key_low;
-    head.key_high = episode.key_high;
-    head.stream = environment.stream;
-    head.ends = episode.ends;
-    head.has_fault = episode.has_fault;
+    values_in_head(head) = values_in_environment(environment);
     if (head.has_fault) {
         head.fault = episode.faults[0];
         head.fault_steps = episode.fault_steps[0];
@@ -102,13 +110,7 @@ inline void read_snapshot(const rddl_problem& problem, std::size_t memory_size,
     std::memcpy(&head, from, sizeof head);
     from += sizeof head;
     Episodes<Scalar>& episode = environment.episode;
-    episode.number = head.number;
-    episode.steps = head.steps;
-    episode.key_low = head.key_low;
-    episode.key_high = head.key_high;
-    environment.stream = head.stream;
-    episode.ends = head.ends;
-    episode.has_fault = head.has_fault;
+    values_in_environment(environment) = values_in_head(head);
     episode.faults[0] = head.fault;
     episode.fault_steps[0] = head.fault_steps;
     environment.last_step.reset();
