@@ -36,7 +36,7 @@ struct CachedObject {
 
 // Fails if there is no C++ compiler or no folder for it (cache_folder.hpp); throws Diagnosed if the
 // compiler refuses the user's headers. A process that ends meanwhile leaves no part of an object.
-// Of several that want the same object, one makes it.
+// If several processes want the same object, one of them makes it.
 CachedObject cached_object(const std::string& text, const CacheOptions& options);
 
 }  // namespace rddlc::workbench

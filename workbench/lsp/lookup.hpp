@@ -55,8 +55,8 @@ class Lookup {
     // The type of a variable: as it is written, or as the parameter of the CPF that binds it.
     std::string_view type_of_binding(const Binding& binding) const;
 
-    // Members of an enumerated type, or the objects of the instance that counts here; nothing if
-    // there is none.
+    // Members of an enumerated type, or the objects of the instance that counts here; nothing
+    // without such an instance.
     std::optional<std::vector<std::string_view>> objects_of(std::string_view type) const;
     // The number of groundings; nothing if it is not known, or larger than a double can count.
     std::optional<double> groundings_of(const FluentDeclaration& fluent) const;

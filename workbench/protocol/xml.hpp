@@ -23,7 +23,7 @@ struct Element {
     std::string text;  // between its children, without the blanks at both ends
     std::vector<Element> children;
 
-    // The first child of that name; NULL if there is none.
+    // The first child of that name; NULL if there is no such child.
     const Element* child(std::string_view name) const;
     // The text of that child. Throws a BadMessage if there is no such child.
     const std::string& text_of(std::string_view name) const;
