@@ -23,6 +23,7 @@
 #include "passes/constants/fold_uniform_tables.hpp"
 #include "passes/constants/tabulate_constant_fluents.hpp"
 #include "passes/constants/tabulate_constants.hpp"
+#include "passes/lanes/choose_evaluation.hpp"
 #include "passes/lanes/evaluate_together.hpp"
 #include "passes/lanes/read_places.hpp"
 #include "passes/lanes/separate_aggregations.hpp"
@@ -251,6 +252,12 @@ constexpr Pass in_order[] = {
      "loops over several objects at once fill vector registers",
      {"share_subexpressions"},
      "the loops have their final bodies"},
+    {"choose_evaluation",
+     Phase::Lanes,
+     choose_evaluation,
+     "selects, draws, loads and roundings are evaluated in the cheapest way",
+     {"evaluate_together"},
+     "loops over several objects load as suits them all; no pass below looks at expressions"},
 };
 
 // Whether each pass stands behind those that it names.
