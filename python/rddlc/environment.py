@@ -104,7 +104,7 @@ class RDDLEnv(ProblemProperties, gymnasium.Env[Any, Any]):
         self.observation_space = self._reader.space
         self.action_space = self._writer.space
         if self.model.preconditions:
-            self.action_space = legal_space(self._writer.space, self._writer, 1)
+            self.action_space = legal_space(self._writer.space, self._writer, self.problem, batch)
         self._masks = ActionMasks(self.problem, batch, self._writer)
         self._rewards, self._causes = batch.rewards, batch.causes
         self._enforces = forms["enforce_action_constraints"]
