@@ -1,0 +1,358 @@
+"""The page of `rddl studio` in headless Chromium. With RDDLC_SCREENSHOTS=FOLDER it leaves pictures of each view there."""
+
+import http.server
+import json
+import os
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+import unittest
+from pathlib import Path
+
+from studio import RDDL, ROOT, Browser, Program, Window, find_browser
+
+if not find_browser():
+    print("SKIPPED: the page of the studio is tested in Chromium, which is not here (apt-get install chromium)",
+          file=sys.stderr)
+    sys.exit(77)
+
+CAR = [ROOT / "examples/mountain_car" / name for name in ("domain.rddl", "instance.rddl")]
+SIZES = [(360, 740), (480, 800), (768, 1024), (1280, 900), (1920, 1080)]
+PICTURES = os.environ.get("RDDLC_SCREENSHOTS")
+HAS_RUN = "document.querySelector('#hand-episode .transport') && !document.querySelector('#hand-episode .transport').hidden"
+STEP = "document.querySelector('#hand-episode output').textContent"
+CARET = "[...document.querySelectorAll('.editor')].find((each) => !each.hidden).querySelector('textarea').selectionStart"
+CTRL = 2
+
+
+class Page(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls) -> None:
+        folder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(folder.cleanup)
+        cls.folder = Path(folder.name)
+        for path in CAR:
+            (cls.folder / path.name).write_text(path.read_text())
+        cls.program = Program("domain.rddl", "instance.rddl", "--engine=interpreter", folder=cls.folder)
+        cls.addClassCleanup(cls.program.close)
+        # A name of an attacker that leads to this machine.
+        cls.browser = Browser("--host-resolver-rules=MAP evil.example 127.0.0.1")
+        cls.addClassCleanup(cls.browser.close)
+        cls.origin = f"http://127.0.0.1:{cls.program.port}"
+
+    def setUp(self) -> None:
+        self.browser.events.clear()
+
+    def open(self, width=1280, height=900) -> Window:
+        window = Window(self.browser, self.program.address, width, height)
+        self.addCleanup(window.close)
+        self.addCleanup(lambda: self.assertEqual(window.complaints(), []))
+        return window
+
+    def picture(self, window: Window, name: str) -> None:
+        if PICTURES:
+            for width, height in SIZES:
+                window.resize(width, height)
+                time.sleep(0.4)
+                window.screenshot(Path(PICTURES) / f"{name}-{width}.png")
+            window.resize(1280, 900)
+
+    def assert_fits(self, window: Window) -> None:
+        """No size makes the page scroll sideways."""
+        for width, height in SIZES:
+            window.resize(width, height)
+            wide = window.evaluate("document.documentElement.scrollWidth")
+            self.assertLessEqual(wide, width)
+        window.resize(1280, 900)
+
+    # ---- edit
+
+    def test_opens_without_errors_or_network(self):
+        window = self.open()
+        window.wait("document.querySelector('#problems-title').textContent === 'No problems'")
+        self.assertEqual(window.evaluate("document.querySelector('textarea').value"), CAR[0].read_text())
+        self.assertTrue(window.evaluate("document.querySelectorAll('.words .keyword').length > 3"))
+        for view in "edit", "try", "compare", "train":
+            window.view(view)
+            self.assert_fits(window)
+        self.assertEqual(window.complaints(self.origin), [])
+        # Everything that takes input has a name for those who do not see it.
+        nameless = window.evaluate("[...document.querySelectorAll('input, select, textarea, button')].filter((each) => "
+                                   "!(each.labels?.length || each.getAttribute('aria-label') || each.textContent.trim())).length")
+        self.assertEqual(nameless, 0)
+
+    def test_error_is_shown_where_it_is_and_repaired(self):
+        window = self.open()
+        window.edit(0, "FUEL-COST   :", "FUEL-COSTS  :")
+        window.wait("document.querySelectorAll('#problems li.error').length")
+        line = 1 + window.evaluate("document.querySelector('textarea').value.split('\\n').findIndex((l) => /FUEL-COST\\b/.test(l))")
+        place = window.text("#problems li .place")
+        self.assertTrue(place.startswith(f"domain.rddl:{line}:"), place)
+        self.assertIn("[E0201]", window.text("#problems li"))
+        self.assertIn("^^^^^^^^^", window.text("#problems li pre"))
+        self.assertEqual(window.text(".gutter .error"), str(line))
+        self.assertEqual(window.text(".marks .error"), "FUEL-COST")
+        self.picture(window, "error")
+        window.click("#problems li .place")
+        caret = window.evaluate(CARET)
+        self.assertEqual(window.evaluate("document.querySelector('textarea').value")[caret:caret + 9], "FUEL-COST")
+        # Every place has a fix of its own, and the keyboard makes them: F8, Ctrl-.
+        window.wait("!document.querySelector('#problems li .fix').hidden")
+        for _ in range(10):
+            if window.text("#problems-title") == "No problems":
+                break
+            count = window.evaluate("document.querySelectorAll('#problems li').length")
+            window.evaluate("document.querySelector('textarea').focus()")
+            window.press("F8", 119)
+            window.press(".", 190, CTRL)
+            window.wait(f"document.querySelectorAll('#problems li').length < {count}")
+        self.assertEqual(window.text("#problems-title"), "No problems")
+        self.assertIn("edited", window.text("#state"))
+
+    def test_completes_and_explains(self):
+        window = self.open()
+        window.edit(0, "reward = ", "reward = vel")
+        window.wait("!document.querySelector('.completions').hidden")
+        self.assertIn("velocity", window.text(".completions"))
+        self.picture(window, "completion")
+        window.press("Enter", 13)
+        window.wait("document.querySelector('.completions').hidden")
+        self.assertIn("reward = velocity", window.evaluate("document.querySelector('textarea').value"))
+        window.press("ArrowLeft", 37)
+        window.wait("document.querySelector('#about').textContent.includes('velocity')")
+
+    def test_saves_by_the_keyboard(self):
+        window = self.open()
+        window.edit(1, "horizon", "// saved\n    horizon")
+        window.press("s", 83, CTRL)
+        window.wait("document.querySelector('#about').textContent === 'saved'")
+        self.assertIn("// saved", (self.folder / "instance.rddl").read_text())
+        window.wait("document.querySelector('#state').textContent === ''")
+        (self.folder / "instance.rddl").write_text(CAR[1].read_text())
+        window.press("s", 83, CTRL)
+        window.wait("document.querySelector('#about').textContent.includes('another program')")
+        window.edit(1, "// saved\n    ", "")
+        window.click("#save")
+        window.wait("document.querySelector('#about').textContent === 'saved'")
+        self.assertEqual((self.folder / "instance.rddl").read_text(), CAR[1].read_text())
+
+    # ---- try
+
+    def begin(self, window: Window) -> None:
+        window.view("try")
+        window.click("#begin")
+        window.wait(HAS_RUN)
+
+    def test_run_plays_with_picture_and_charts(self):
+        window = self.open()
+        window.view("try")
+        window.fill("#policy", "random")
+        window.fill("#hand-episode select", "25")
+        window.click("#run")
+        window.wait(f"Number({STEP}.split(' ')[1]) > 3")  # it moves
+        window.wait(f"{STEP}.split(' ')[3] === '200'")
+        window.evaluate("document.querySelector('#hand-episode [aria-label=\"Last step\"]').click()")
+        window.wait(f"{STEP} === 'step 200 of 200'")
+        self.assertIn("ended: horizon", window.text("#hand-episode figcaption"))
+        window.wait("document.querySelector('#hand-episode img').dataset.step === '200'")
+        self.assertTrue(window.evaluate("document.querySelector('#hand-episode img').naturalWidth > 300"))
+        self.assertTrue(window.evaluate("[...document.querySelectorAll('#try canvas')].every((c) => "
+                                        "c.getContext('2d').getImageData(0, 0, c.width, c.height).data.some((b) => b > 0))"))
+        self.assertGreaterEqual(window.evaluate("document.querySelectorAll('#try canvas').length"), 3)
+        self.assert_fits(window)
+        self.picture(window, "run")
+
+    def replay(self, actions: list[dict]) -> list[dict]:
+        lines = "".join(json.dumps({"action": action}) + "\n" for action in actions)
+        run = subprocess.run([RDDL, "replay", *CAR, "--seed", "0"], input=lines, capture_output=True, text=True, check=True)
+        return [json.loads(line) for line in run.stdout.splitlines()]
+
+    def values(self, window: Window) -> dict:
+        return window.evaluate("Object.fromEntries([...document.querySelectorAll('#try tbody tr')].map("
+                               "(row) => [row.querySelector('th').textContent, Number(row.querySelector('td').textContent)]))")
+
+    def assert_shows(self, window: Window, state: dict) -> None:
+        for name, value in self.values(window).items():
+            self.assertAlmostEqual(value, state[name], delta=1e-4 * max(1, abs(state[name])))
+
+    def test_manual_action_gives_the_step_of_the_engine(self):
+        window = self.open()
+        self.begin(window)
+        name = self.program.ask("describe", tab=window.evaluate("sessionStorage.getItem('rddl-tab')"),
+                                player="hand")["problem"]["actions"][0]["name"]
+        forces = [1.0, -1.0, 0.5]
+        for k, force in enumerate(forces):
+            window.fill("#actions input", str(force))
+            window.click("#take")
+            window.wait(f"{STEP}.startsWith('step {k + 1} ')")
+        self.assert_shows(window, self.replay([{name: force} for force in forces])[-1]["state"])
+        # Back, and another action in place of the second one.
+        for _ in range(2):
+            window.click("#hand-episode [aria-label=Back]")
+        self.assertEqual(window.evaluate(STEP), "step 1 of 3")
+        self.assertEqual(float(window.evaluate("document.querySelector('#actions input').value")), -1.0)
+        window.fill("#actions input", "0.25")
+        window.click("#take")
+        window.wait(f"{STEP} === 'step 2 of 2'")
+        self.assert_shows(window, self.replay([{name: 1.0}, {name: 0.25}])[-1]["state"])
+        self.picture(window, "hand")
+        # An illegal action is explained, and taken by those who insist.
+        window.fill("#actions input", "7")
+        window.evaluate("document.querySelector('#actions input').max = ''")
+        window.click("#take")
+        window.wait("!document.querySelector('#take-anyway').hidden")
+        self.assertIn("illegal", window.text("#try-message"))
+        window.click("#take-anyway")
+        window.wait(f"{STEP} === 'step 3 of 3'")
+        # The policy continues from there.
+        window.click("#once")
+        window.wait(f"{STEP} === 'step 4 of 4'")
+        window.click("#ask")
+        window.wait("document.querySelector('#try-message').textContent.includes('would do this')")
+
+    def test_texts_with_errors_do_not_run(self):
+        window = self.open()
+        window.edit(0, "reward =", "reward = =")
+        window.wait("document.querySelectorAll('#problems li.error').length")
+        window.view("try")
+        window.click("#run")
+        self.assertIn("errors", window.text("#try-message"))
+        # What is wrong in the words of a user is shown as text.
+        window.edit(0, "reward = =", "reward =")
+        window.wait("document.querySelector('#problems-title').textContent === 'No problems'")
+        window.fill("#policy", "<img src=x onerror='window.hacked=1'>")
+        window.click("#run")
+        window.wait("document.querySelector('#try-message').textContent.includes('<img')")
+        self.assertFalse(window.evaluate("'hacked' in window"))
+
+    # ---- compare and train
+
+    def test_compares(self):
+        window = self.open()
+        window.view("compare")
+        window.fill("#episodes", "50")
+        window.click("#evaluate")
+        window.wait("!!document.querySelector('#verdict')", 60)
+        self.assertIn("50 pairs", window.text("#verdict"))
+        window.click("#beside")
+        window.wait("document.querySelectorAll('#both figcaption').length === 2 && "
+                    "[...document.querySelectorAll('#both figcaption')].every((each) => each.textContent.includes('return'))")
+        window.wait("document.querySelector('#both output').textContent.endsWith('of 200')")
+        window.click("#both [aria-label='Last step']")
+        captions = window.evaluate("[...document.querySelectorAll('#both figcaption')].map((each) => each.textContent)")
+        self.assertTrue(captions[0].startswith("noop · step 200"), captions)
+        self.assertTrue(captions[1].startswith("random · step"), captions)
+        self.assert_fits(window)
+        self.picture(window, "compare")
+
+    def test_trains_with_a_curve(self):
+        window = self.open()
+        window.view("train")
+        window.fill("#learner", "cgp")
+        window.fill("#seconds", "300")
+        window.fill("#options", "gens=2000000 episodes=1")
+        window.click("#learn")
+        window.wait("document.querySelector('#curve .key').textContent.includes('while it learns -') || "
+                    "/while it learns \\d/.test(document.querySelector('#curve .key').textContent)", 60)
+        self.picture(window, "train")
+        window.reload()  # what runs goes on
+        window.wait("document.querySelector('#train-message').textContent.includes('learning for')")
+        window.click("#train-stop")
+        window.wait("document.querySelector('#train-stop').hidden && !document.querySelector('#use-policy').hidden")
+        self.assertIn("runs/", window.text("#train-message"))
+        window.click("#use-policy")
+        self.assertTrue(window.evaluate("document.querySelector('#policy').value").startswith("runs/"))
+        window.click("#once")
+        window.wait(HAS_RUN)
+        window.wait(f"{STEP} === 'step 1 of 1'")
+        self.assert_fits(window)
+
+    # ---- tabs, reloads, an end
+
+    def test_tabs_reload_and_an_end_of_the_program(self):
+        program = Program("domain.rddl", "instance.rddl", "--engine=interpreter", folder=self.folder)
+        self.addCleanup(program.close)
+        first = Window(self.browser, program.address)
+        second = Window(self.browser, program.address)
+        first.edit(0, "reward =", "// of the first tab\n    reward =")
+        first.wait("document.querySelector('#state').textContent.includes('edited')")
+        self.assertNotIn("of the first", second.evaluate("document.querySelector('textarea').value"))
+        first.view("try")
+        first.click("#once")
+        first.wait(HAS_RUN)
+        first.wait(f"{STEP} === 'step 1 of 1'")
+        self.assertTrue(second.evaluate("document.querySelector('#hand-episode .transport').hidden"))
+        first.reload()
+        self.assertIn("of the first tab", first.evaluate("document.querySelector('textarea').value"))
+        first.wait(HAS_RUN)
+        self.assertEqual(first.evaluate(STEP), "step 1 of 1")
+        # The program ends: the page says so, and keeps what is typed then.
+        self.assertEqual(program.end()[0], 130)
+        first.wait("!document.querySelector('#gone').hidden")
+        self.picture(first, "gone")
+        first.edit(0, "// of the first tab", "// after the end")
+        time.sleep(0.5)
+        # A new one at the same port: the old page does not know its secret, a new tab has the text.
+        again = Program("domain.rddl", "instance.rddl", "--engine=interpreter", folder=self.folder, port=program.port)
+        self.addCleanup(again.close)
+        first.wait("document.querySelector('#gone').textContent.includes('earlier run')")
+        first.close()
+        third = Window(self.browser, again.address)
+        third.wait("!document.querySelector('#earlier').hidden")
+        third.click("#earlier-take")
+        self.assertIn("// after the end", third.evaluate("document.querySelector('textarea').value"))
+        third.close()
+        second.close()
+
+    # ---- other pages in the same browser
+
+    def test_hostile_page_cannot_drive_it(self):
+        texts = {path.stem: path.read_text() for path in CAR}
+        save = json.dumps({"tab": "evil", "domain": "hacked", "instance": texts["instance"], "force": True})
+        api = f"{self.origin}/api/save"
+        attack = f"""<!doctype html><body>An attack.<iframe id=framed src="{self.origin}/"></iframe>
+            <form id=form method=post enctype="text/plain" action="{api}" target=hidden><input name='{save[:-1]},"x":"' value='"}}'></form>
+            <iframe name=hidden></iframe><script>
+            const body = {json.dumps(save)}, tries = [
+              () => fetch("{api}", {{method: "POST", body}}),
+              () => fetch("{api}", {{method: "POST", body, mode: "no-cors"}}).then((r) => {{ if (r.type !== "opaque") return r.text(); throw 0; }}),
+              () => fetch("{api}", {{method: "POST", body, headers: {{"Content-Type": "application/json", "X-Rddl-Token": "0"}}}}),
+              () => fetch("{self.origin}/").then((r) => r.text()),
+              () => fetch("http://evil.example:{self.program.port}/").then((r) => r.text()),
+              () => fetch("http://evil.example:{self.program.port}/api/open", {{method: "POST", body}}).then((r) => r.text()),
+              () => Promise.resolve(document.getElementById("framed").contentWindow.document.body.innerText || Promise.reject()),
+              () => new Promise((yes, no) => {{ const s = document.createElement("script"); s.src = "{self.origin}/server.js"; s.onload = yes; s.onerror = no; document.body.append(s); }}),
+              () => new Promise((yes, no) => {{ const w = new WebSocket("ws://127.0.0.1:{self.program.port}/"); w.onopen = yes; w.onerror = no; }})];
+            document.getElementById("form").submit();
+            Promise.allSettled(tries.map((each) => each())).then((all) => {{ window.outcome = all.map((each) => each.status); }});
+            </script>""".encode()
+
+        class Evil(http.server.BaseHTTPRequestHandler):
+            def do_GET(self):  # noqa: N802
+                self.send_response(200)
+                self.send_header("Content-Type", "text/html")
+                self.end_headers()
+                self.wfile.write(attack)
+
+            def log_message(self, *_):
+                pass
+
+        server = http.server.ThreadingHTTPServer(("127.0.0.1", 0), Evil)
+        threading.Thread(target=server.serve_forever, daemon=True).start()
+        self.addCleanup(server.server_close)
+        self.addCleanup(server.shutdown)
+        window = Window(self.browser, f"http://evil.example:{server.server_port}/")
+        outcome = window.wait("window.outcome")
+        self.assertEqual(outcome, ["rejected"] * 9)
+        self.assertEqual((self.folder / "domain.rddl").read_text(), texts["domain"])
+        # The page itself, opened under the attacker's name, gets nothing.
+        window.call("Page.navigate", url=f"http://evil.example:{self.program.port}/#{self.program.token}")
+        window.wait("document.body?.textContent.includes('Host')")
+        window.close()
+        self.browser.events.clear()
+
+
+if __name__ == "__main__":
+    unittest.main()
