@@ -227,6 +227,52 @@ class Page(unittest.TestCase):
         window.wait("document.querySelector('#try-message').textContent.includes('<img')")
         self.assertFalse(window.evaluate("'hacked' in window"))
 
+    def test_keyboard_alone(self):
+        window = self.open()
+        window.evaluate("document.querySelector('[data-shows=try]').focus()")
+        window.press("Enter", 13, text="\r")
+        found = []
+
+        def tab_to(wanted):
+            for _ in range(40):
+                window.press("Tab", 9)
+                found.append(window.evaluate("document.activeElement.id || document.activeElement.ariaLabel || document.activeElement.tagName"))
+                if found[-1] == wanted:
+                    return
+            self.fail(f"{wanted} is not reached: {found}")
+
+        tab_to("once")
+        window.press("Enter", 13, text="\r")
+        window.wait(HAS_RUN)
+        window.wait(f"{STEP} === 'step 1 of 1'")
+        self.assertTrue(window.evaluate("getComputedStyle(document.activeElement).outlineStyle === 'solid'"))
+        tab_to("Back")
+        window.press("Enter", 13, text="\r")
+        window.wait(f"{STEP} === 'step 0 of 1'")
+        tab_to("Step")
+        window.press("ArrowRight", 39)
+        window.wait(f"{STEP} === 'step 1 of 1'")
+        tab_to("take")
+        window.press("Enter", 13, text="\r")
+        window.wait(f"{STEP} === 'step 2 of 2'")
+        # The tabulator also leaves the text areas.
+        window.evaluate("document.querySelector('textarea').focus()")
+        window.press("Tab", 9)
+        self.assertNotEqual(window.evaluate("document.activeElement.tagName"), "TEXTAREA")
+
+    def test_long_texts_stay_quick(self):
+        window = self.open()
+        lines = "".join(f"        // line {k}\\n" for k in range(5000))
+        window.edit(0, "pvariables {", f"pvariables {{\n{lines.replace(chr(92) * 2 + 'n', chr(10))}")
+        window.evaluate("document.querySelector('textarea').scrollTop = 1e6")
+        time.sleep(0.2)
+        took = window.evaluate("(() => { const area = document.querySelector('textarea'); const begin = performance.now();"
+                               "for (let k = 0; k < 10; ++k) area.dispatchEvent(new Event('input'));"
+                               "return (performance.now() - begin) / 10; })()")
+        self.assertLess(took, 100)  # milliseconds of a key
+        self.assertLess(window.evaluate("document.querySelectorAll('.gutter .numbers div').length"), 200)
+        window.wait("document.querySelector('#problems-title').textContent === 'No problems'")
+
     # ---- compare and train
 
     def test_compares(self):
@@ -241,9 +287,8 @@ class Page(unittest.TestCase):
                     "[...document.querySelectorAll('#both figcaption')].every((each) => each.textContent.includes('return'))")
         window.wait("document.querySelector('#both output').textContent.endsWith('of 200')")
         window.click("#both [aria-label='Last step']")
-        captions = window.evaluate("[...document.querySelectorAll('#both figcaption')].map((each) => each.textContent)")
-        self.assertTrue(captions[0].startswith("noop · step 200"), captions)
-        self.assertTrue(captions[1].startswith("random · step"), captions)
+        captions = "[...document.querySelectorAll('#both figcaption')].map((each) => each.textContent)"
+        window.wait(f"{captions}[0].startsWith('noop · step 200') && {captions}[1].startsWith('random · step 200')")
         self.assert_fits(window)
         self.picture(window, "compare")
 

@@ -19,7 +19,6 @@ using namespace workbench;
 
 namespace {
 
-constexpr std::size_t most_values = 2000;  // of actions that are chosen on the page
 constexpr std::size_t message_size = std::size_t{1} << 22;  // bytes of moments
 
 Json bound_of(const double* bounds, std::int64_t grounding) {
@@ -76,6 +75,7 @@ Json Player::description() const {
             {"has_policy_block", problem_.simulator->policy != nullptr},
             {"actions", action_values(problem)},
             {"action_count", RecordLayout(problem, RDDL_ACTION).entries().size()},
+            {"state_count", RecordLayout(problem, RDDL_STATE).entries().size()},
             {"visualizers", visualizers_for(*problem_.simulator)}};
 }
 
@@ -92,9 +92,7 @@ std::string Player::step(const nlohmann::json& values, bool insists) {
     const std::scoped_lock lock(mutex_);
     const Record action = episode_.read_action(values);
     if (const std::string why = episode_.violation_of(action); !why.empty() && !insists) return why;
-    const bool replaces = episode_.now_at() + 1 < episode_.moments().size();
     episode_.step(action, "you");
-    branch_ += replaces ? 1 : 0;
     return "";
 }
 
@@ -135,6 +133,7 @@ void Player::run(const std::shared_ptr<Workers>& workers, const std::string& pol
     const std::scoped_lock run_lock(run_mutex_);
     halt();
     if (episode_.is_over()) throw Failure("the episode is over", "go back, or begin another one");
+    const std::scoped_lock lock(mutex_);
     run_ = Job::start(workers, [player = shared_from_this(), policy, steps](Job& job) {
         return player->run_steps(job, policy, steps);
     });
@@ -149,9 +148,7 @@ Json Player::run_steps(Job& job, const std::string& policy, std::int64_t steps) 
         const Record action = actor.act(episode_, stops);
         if (job.stops()) break;
         const std::scoped_lock lock(mutex_);
-        const bool replaces = episode_.now_at() + 1 < episode_.moments().size();
         episode_.step(action, policy);
-        branch_ += replaces ? 1 : 0;
     }
     return nullptr;
 }
@@ -160,8 +157,8 @@ std::string Player::news(std::uint64_t branch, std::size_t since) const {
     const std::scoped_lock lock(mutex_);
     const std::size_t count = episode_.moments().size();
     // The last moment that the page has is sent again: an action may have been added to it.
-    std::size_t k = branch == branch_ && since > 0 ? std::min(since, count) - 1 : 0;
-    std::string out = fmt::format(R"({{"branch":{},"first":{},"moments":[)", branch_, k);
+    std::size_t k = branch == episode_.branch() && since > 0 ? std::min(since, count) - 1 : 0;
+    std::string out = fmt::format(R"({{"branch":{},"first":{},"moments":[)", episode_.branch(), k);
     for (const std::size_t first = k; k < count && out.size() < message_size; ++k)
         out += (k == first ? "" : ",") + episode_.moment_json(k);
     return out + fmt::format(R"(],"count":{},"now":{},"run":{}}})", count, episode_.now_at(),

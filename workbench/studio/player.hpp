@@ -56,7 +56,6 @@ class Player : public std::enable_shared_from_this<Player> {
     const workbench::LoadedProblem problem_;
     mutable std::mutex mutex_;  // of all below, except that a run alone changes what it reads
     SteppedEpisode episode_;
-    std::uint64_t branch_ = 0;
     std::mutex run_mutex_;  // held while a run begins or is waited for
     std::unique_ptr<PolicyActor> actor_;
     std::shared_ptr<Job> run_;

@@ -15,28 +15,25 @@ PolicyActor::PolicyActor(const SteppedEpisode& episode, solvers::Policy policy, 
 void PolicyActor::begin(const SteppedEpisode& episode) {
     batch_ = episode.beginning();
     actor_ = policy_.start(1);
-    taken_.clear();
+    branch_ = episode.branch();
+    steps_ = 0;
     has_decided_ = false;
 }
 
 // Whether batch_ is the episode up to some moment, and there was no decision at the present one.
 bool PolicyActor::follows(const SteppedEpisode& episode) const {
-    const std::size_t decided = taken_.size() + (has_decided_ ? 1 : 0);
-    if (decided > episode.now_at()) return false;
-    for (std::size_t k = 0; k < taken_.size(); ++k)
-        if (taken_[k] != episode.moments()[k].action) return false;
-    return true;
+    return branch_ == episode.branch() && steps_ + (has_decided_ ? 1 : 0) <= episode.now_at();
 }
 
 Record PolicyActor::act(const SteppedEpisode& episode, const solvers::Stops& stops) {
     if (!follows(episode)) begin(episode);
-    while (taken_.size() < episode.now_at()) {
+    while (steps_ < episode.now_at()) {
         if (!has_decided_ && !is_planner_) decide(episode, stops);
-        const Record& action = episode.moments()[taken_.size()].action;
+        const Record& action = episode.moments()[steps_].action;
         const rddl_transition out{};
         const rddl_simulator& simulator = episode.simulator();
         solvers::require_done(simulator, simulator.step(batch_.get(), action.data(), &out));
-        taken_.push_back(action);
+        ++steps_;
         has_decided_ = false;
     }
     decide(episode, stops);
@@ -50,7 +47,7 @@ Record PolicyActor::act(const SteppedEpisode& episode, const solvers::Stops& sto
 void PolicyActor::decide(const SteppedEpisode& episode, const solvers::Stops& stops) {
     const std::uint8_t running[] = {1};
     const std::int64_t episodes[] = {episode.number()};
-    const std::int64_t steps[] = {static_cast<std::int64_t>(taken_.size())};
+    const std::int64_t steps[] = {static_cast<std::int64_t>(steps_)};
     std::int32_t violated[] = {-1};
     decision_.resize(static_cast<std::size_t>(episode.problem().action_size));
     solvers::Decision decision{batch_.get(), running,          episodes,

@@ -30,8 +30,9 @@ class PolicyActor {
     bool is_planner_;
     solvers::BatchHandle batch_;
     solvers::Actor actor_;
-    std::vector<Record> taken_;  // actions that batch_ has made
-    bool has_decided_ = false;   // at the state of batch_
+    std::uint64_t branch_ = 0;  // of the episode that batch_ has followed
+    std::size_t steps_ = 0;     // that batch_ has made
+    bool has_decided_ = false;  // at the state of batch_
     Record decision_;
 };
 

@@ -23,6 +23,17 @@ Record default_action_of(const rddl_problem& problem) {
     return {defaults, defaults + problem.action_size};
 }
 
+void write_first_values(std::string& out, const RecordLayout& layout, const std::byte* record) {
+    const std::vector<RecordEntry>& entries = layout.entries();
+    for (std::size_t k = 0; k < std::min(entries.size(), most_values); ++k) {
+        out += k == 0 ? '{' : ',';
+        write_string(out, entries[k].name);
+        out += ':';
+        write_value(out, entries[k], record);
+    }
+    out += entries.empty() ? "{}" : "}";
+}
+
 std::size_t bytes_of(const Moment& moment) {
     return moment.state.size() + moment.observation.size() + moment.snapshot.size() +
            moment.action.size() + sizeof moment;
@@ -99,9 +110,7 @@ std::string SteppedEpisode::violation_of(const Record& action) const {
 void SteppedEpisode::step(const Record& action, std::string by) {
     if (is_over()) throw Failure("the episode is over", "go back, or begin another one");
     std::string warning = violation_of(action);
-    std::size_t bytes = 0;
-    for (std::size_t k = 0; k <= now_; ++k) bytes += bytes_of(moments_[k]);
-    if (bytes > most_bytes)
+    if (now().bytes > most_bytes)
         throw Failure("an episode of so many bytes is not kept here",
                       "'rddl run --trace' writes longer ones into a file");
     double reward = 0;
@@ -110,12 +119,14 @@ void SteppedEpisode::step(const Record& action, std::string by) {
     solvers::require_done(*simulator_, simulator_->step(batch_.get(), action.data(), &out));
     Moment next = present();
     next.total = moments_[now_].total + (next.causes & RDDL_FAULTED ? 0 : reward);
+    branch_ += now_ + 1 < moments_.size() ? 1 : 0;
     moments_.resize(now_ + 1);
     Moment& taken = moments_.back();
     taken.action = action;
     taken.reward = reward;
     taken.by = std::move(by);
     taken.warning = std::move(warning);
+    next.bytes = taken.bytes + bytes_of(taken);
     moments_.push_back(std::move(next));
     ++now_;
 }
@@ -129,10 +140,10 @@ std::string SteppedEpisode::action_json(const Record& action) const {
 std::string SteppedEpisode::moment_json(std::size_t number) const {
     const Moment& moment = moments_.at(number);
     std::string out = fmt::format(R"({{"step":{},"state":)", number);
-    states_.write(out, moment.state.data());
+    write_first_values(out, states_, moment.state.data());
     if (!moment.observation.empty()) {
         out += R"(,"observation":)";
-        observations_.write(out, moment.observation.data());
+        write_first_values(out, observations_, moment.observation.data());
     }
     out += R"(,"total":)";
     write_real(out, moment.total);

@@ -18,6 +18,10 @@ namespace rddlc::studio {
 
 using Record = std::vector<std::byte>;
 
+// The values of a state, an observation or an action beyond so many are not sent to the page, which
+// could not show them.
+inline constexpr std::size_t most_values = 2000;
+
 // A state of the episode and, unless it is the last one, the action taken in it.
 struct Moment {
     Record state, observation;  // `observation` is empty unless the problem hides its state
@@ -25,6 +29,7 @@ struct Moment {
     std::string fault;          // that has ended it
     double total = 0;           // rewards of the steps before
     Record snapshot;            // of the environment
+    std::size_t bytes = 0;      // of the moments before
 
     Record action;  // empty: no action was taken yet
     double reward = 0;
@@ -51,6 +56,8 @@ class SteppedEpisode {
     const Moment& now() const { return moments_[now_]; }
     // The number of steps made before.
     std::size_t now_at() const { return now_; }
+    // How often later moments were replaced by others.
+    std::uint64_t branch() const { return branch_; }
     bool is_over() const { return now().causes != RDDL_RUNNING; }
 
     // Makes the moment the present one; the later ones stay until another action is taken.
@@ -79,6 +86,7 @@ class SteppedEpisode {
     solvers::BatchHandle batch_;
     std::vector<Moment> moments_;
     std::size_t now_ = 0;
+    std::uint64_t branch_ = 0;
 };
 
 }  // namespace rddlc::studio

@@ -85,6 +85,8 @@ export class Editor {
     this.area.focus();
     this.area.setSelectionRange(offset, offset);
     this.area.scrollTop = Math.max(0, position.line * this.lineHeight() - this.area.clientHeight / 3);
+    const x = position.character * this.charWidth();
+    this.area.scrollLeft = x < this.area.clientWidth * 0.7 ? 0 : x - this.area.clientWidth / 2;
     this.draw();
   }
 
@@ -162,7 +164,7 @@ export class Editor {
     const { line, character } = this.position();
     const width = this.charWidth();
     const x = character * width - this.area.scrollLeft, y = (line + 1) * this.lineHeight() - this.area.scrollTop;
-    this.list.style.left = `${Math.max(0, Math.min(x, this.code.clientWidth - 240))}px`;
+    this.list.style.left = `${Math.max(0, Math.min(x, this.code.clientWidth - this.list.offsetWidth))}px`;
     this.list.style.top = `${y + 6}px`;
     this.list.children[this.chosen].scrollIntoView({ block: "nearest" });
   }

@@ -79,7 +79,7 @@ export class Episode {
 
   begin(problem) {
     this.problem = problem;
-    Object.assign(this, { moments: [], dropped: [], branch: 0, at: 0, words: {}, run: null, charted: null });
+    Object.assign(this, { moments: [], dropped: [], branch: 0, at: 0, words: {}, run: null, charted: null, moving: null });
     this.visualizer = problem.visualizers[0] ?? "";
     this.figure.classList.toggle("without", problem.visualizers.length === 0);
     this.chartOf.clear();
@@ -197,7 +197,9 @@ export class Episode {
       row.lastChild.classList.toggle("changed", isChanged);
       row.firstChild.firstChild.setAttribute("aria-pressed", String(this.chartedNames().includes(key)));
     });
-    this.more.textContent = found.length > mostRows ? `and ${found.length - mostRows} more: filter by name` : "";
+    const unsent = this.problem.state_count - Object.keys(state).length;
+    this.more.textContent = [found.length > mostRows ? `and ${found.length - mostRows} more: filter by name` : "",
+      unsent > 0 ? `${unsent} more values of the state are in the picture alone` : ""].filter(Boolean).join("; ");
   }
 
   row(name, key) {
@@ -216,11 +218,14 @@ export class Episode {
   // Two of the first values that move, unless the user has chosen.
   chartedNames() {
     if (this.charted) return this.charted;
+    if (this.moving && this.last < this.movingUntil) return this.moving;
+    this.movingUntil = 2 * this.last + 1;  // a long episode is not searched at each step
     const first = this.moments[0].state;
     const moves = (key) => this.moments.some(({ state }) => state[key] !== first[key]);
     const names = Object.keys(first).slice(0, mostRows);
     const moving = names.filter(moves).slice(0, 2);
-    return moving.length ? moving : names.slice(0, 1);
+    this.moving = moving.length ? moving : names.slice(0, 1);
+    return this.moving;
   }
 
   drawCharts() {
@@ -339,6 +344,11 @@ export class Transport {
       this.pictures.replaceChildren(...names.map((name) => make("option", { value: name, textContent: name })));
     this.pictures.hidden = names.length < 2;
     this.pictures.value = first.visualizer;
+    // An episode whose moments came late.
+    for (const episode of this.episodes) {
+      const place = Math.min(this.at, episode.last);
+      if (episode.isThere && episode.at < place) episode.show(place);
+    }
     this.tell();
   }
 

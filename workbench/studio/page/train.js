@@ -16,10 +16,12 @@ async function learn() {
   await followJob();
 }
 
+const unit = () => (byId("learner").value === "cgp" ? "generations" : "steps");
+
 function draw({ steps, learning, evaluation }) {
   const line = (values) => steps.map((step, k) => [step, values[k] ?? NaN]);
   chart.draw([{ name: "while it learns", color: "--first", points: line(learning) },
-    { name: "evaluations", color: "--second", dash: 1, points: line(evaluation) }], null, { xTitle: "steps" });
+    { name: "evaluations", color: "--second", dash: 1, points: line(evaluation) }], null, { xTitle: unit() });
 }
 
 async function followJob() {
@@ -31,7 +33,7 @@ async function followJob() {
     const curve = status.progress;
     if (curve?.steps?.length) draw(curve);
     if (status.state === "running")
-      tell(curve ? `learning for ${Math.round(status.seconds)} s in ${curve.folder}, ${shown(curve.steps.at(-1) ?? 0)} steps` : `compiling for ${Math.round(status.seconds)} s`);
+      tell(curve ? `learning for ${Math.round(status.seconds)} s in ${curve.folder}, ${shown(curve.steps.at(-1) ?? 0)} ${unit()}` : `compiling for ${Math.round(status.seconds)} s`);
     return status.state === "running";
   }, 400);
   byId("train-stop").hidden = true;
