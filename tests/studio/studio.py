@@ -8,7 +8,9 @@ import re
 import signal
 import subprocess
 import sys
+import tempfile
 import time
+import unittest
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -170,3 +172,62 @@ class Window:
         self.call("Page.bringToFront")  # others are not drawn
         data = self.call("Page.captureScreenshot", format="png")["data"]
         Path(file).write_bytes(base64.b64decode(data))
+
+
+CAR = [ROOT / "examples/mountain_car" / name for name in ("domain.rddl", "instance.rddl")]
+SIZES = [(360, 740), (480, 800), (768, 1024), (1280, 900), (1920, 1080)]
+PICTURES = os.environ.get("RDDLC_SCREENSHOTS")
+CTRL = 2  # as the protocol has it
+HAS_RUN = "document.querySelector('#hand-episode .transport') && !document.querySelector('#hand-episode .transport').hidden"
+STEP = "document.querySelector('#hand-episode output').textContent"
+
+
+def require_browser() -> None:
+    if not find_browser():
+        print("SKIPPED: the page of the studio is tested in Chromium, which is not here (apt-get install chromium)",
+              file=sys.stderr)
+        sys.exit(77)
+
+
+class PageTest(unittest.TestCase):
+    """One program and one browser, with windows for each test. With RDDLC_SCREENSHOTS=FOLDER tests leave pictures of
+    each view at five sizes there."""
+
+    @classmethod
+    def setUpClass(cls) -> None:
+        folder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(folder.cleanup)
+        cls.folder = Path(folder.name)
+        for path in CAR:
+            (cls.folder / path.name).write_text(path.read_text())
+        cls.program = Program("domain.rddl", "instance.rddl", "--engine=interpreter", folder=cls.folder)
+        cls.addClassCleanup(cls.program.close)
+        # A name of an attacker that leads to this machine.
+        cls.browser = Browser("--host-resolver-rules=MAP evil.example 127.0.0.1")
+        cls.addClassCleanup(cls.browser.close)
+        cls.origin = f"http://127.0.0.1:{cls.program.port}"
+
+    def setUp(self) -> None:
+        self.browser.events.clear()
+
+    def open(self, width=1280, height=900) -> Window:
+        window = Window(self.browser, self.program.address, width, height)
+        self.addCleanup(window.close)
+        self.addCleanup(lambda: self.assertEqual(window.complaints(), []))
+        return window
+
+    def picture(self, window: Window, name: str) -> None:
+        if PICTURES:
+            for width, height in SIZES:
+                window.resize(width, height)
+                time.sleep(0.4)
+                window.screenshot(Path(PICTURES) / f"{name}-{width}.png")
+            window.resize(1280, 900)
+
+    def assert_fits(self, window: Window) -> None:
+        """No size makes the page scroll sideways."""
+        for width, height in SIZES:
+            window.resize(width, height)
+            wide = window.evaluate("document.documentElement.scrollWidth")
+            self.assertLessEqual(wide, width)
+        window.resize(1280, 900)

@@ -9,6 +9,8 @@ let current = 0;
 let hasErrors = false;
 let onChange = () => {};
 
+// Browsers have "\n" alone in text areas. Files keep the ends of lines that they had.
+const fileText = ({ editor, lineEnd }) => editor.text.replaceAll("\n", lineEnd);
 export const texts = () => ({ domain: documents[0].editor.text, instance: documents[1]?.editor.text ?? "" });
 export const isBroken = () => hasErrors;
 
@@ -21,9 +23,11 @@ function addDocument(name, text) {
     complete: (position) => complete(document, position),
   });
   const tabButton = make("button", { type: "button", textContent: name });
-  const document = { name, uri: `studio:/${encodeURIComponent(name)}`, editor, tabButton, version: 1, sent: 0, saved: text, diagnostics: [] };
+  const document = { name, uri: `studio:/${encodeURIComponent(name)}`, editor, tabButton, version: 1, sent: 0, diagnostics: [],
+    lineEnd: text.includes("\r\n") ? "\r\n" : "\n" };
   tabButton.addEventListener("click", () => showDocument(documents.indexOf(document), true));
   editor.text = text;
+  document.saved = editor.text;
   documents.push(document);
   byId("texts").append(tabButton);
   byId("editors").append(editor.root);
@@ -273,7 +277,8 @@ async function save(force = false) {
   if (!opened.can_save) return download();
   const written = texts();
   try {
-    await ask("save", { ...written, force });
+    const [domain, instance] = documents.map(fileText);
+    await ask("save", { domain, instance: instance ?? "", force });
     byId("save").textContent = "Save";
     documents.forEach((document, k) => { document.saved = k ? written.instance : written.domain; });
     keepDraft();
@@ -285,8 +290,9 @@ async function save(force = false) {
 }
 
 function download() {
-  for (const { name, editor } of documents) {
-    const link = make("a", { href: URL.createObjectURL(new Blob([editor.text], { type: "text/plain" })), download: name.split("/").pop() });
+  for (const document of documents) {
+    const { name } = document;
+    const link = make("a", { href: URL.createObjectURL(new Blob([fileText(document)], { type: "text/plain" })), download: name.split("/").pop() });
     link.click();
     setTimeout(() => URL.revokeObjectURL(link.href), 1000);
   }
