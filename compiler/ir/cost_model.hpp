@@ -13,7 +13,7 @@ namespace rddlc::ir {
 
 // Prices that fit measured time (benchmarks/cost_model.py). A Select of two branches of at most
 // cheap_cost needs no branch; an elementary function, as exp, is a polynomial of about ten terms and
-// its reduction; a draw is a block of Philox, and that of a real a quantile, too; a step takes its
+// its reduction; a draw is a block of Philox, and that of a real also a quantile; a step takes its
 // call, its random stream and its flags.
 inline constexpr double cheap_cost = 6;
 inline constexpr double division_cost = 6;
