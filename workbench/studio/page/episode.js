@@ -163,15 +163,14 @@ export class Episode {
     try {
       while (this.wantsPicture) {
         this.wantsPicture = false;
-        const at = this.at, branch = this.branch;
+        const at = this.at;
         const wide = Math.min(Math.max(Math.round(this.figure.clientWidth * (devicePixelRatio || 1)), 400), 1200);
         const blob = await ask("picture", { player: this.player, step: at, visualizer: this.visualizer,
           width: wide, height: Math.round((wide * 2) / 3) }, { binary: true });
         const before = this.picture.src;
         this.picture.src = URL.createObjectURL(blob);
-        this.picture.dataset.step = at;
-        this.picture.dataset.branch = branch;
         await this.picture.decode().catch(() => {});
+        this.picture.dataset.step = at;  // that is seen now
         if (before.startsWith("blob:")) URL.revokeObjectURL(before);
       }
     } catch {  // a moment that was dropped meanwhile, or the program has ended, which is told elsewhere
