@@ -55,8 +55,9 @@ std::string picture_of(const SteppedEpisode& episode, std::size_t moment,
     const render::Visualizer* const drawn = render::find_visualizer(visualizer);
     if (!drawn) throw Failure(fmt::format("there is no visualizer '{}'", visualizer));
     try {
-        render::EpisodeRenderer renderer(world, *drawn, size.width, size.height, episode.number(),
-                                         episode.problem().horizon);
+        render::EpisodeRenderer renderer(
+            world, *drawn, size.width, size.height, episode.number(),
+            solvers::steps_of_horizon(episode.problem(), episode.horizon()));
         const std::size_t first = moment - std::min(moment, render::most_steps_remembered - 1);
         for (std::size_t k = first; k <= moment; ++k) renderer.add(step_of(moments[k], k));
         return render::small_png_bytes(renderer.picture());

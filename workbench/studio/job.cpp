@@ -44,6 +44,8 @@ void Job::run(const Work& work) {
     } catch (const Failure& failure) {
         const std::string hint = failure.hint.empty() ? "" : "; " + failure.hint;
         settle(stops() ? "stopped" : "failed", nullptr, failure.what() + hint);
+    } catch (const Diagnosed&) {
+        settle("failed", nullptr, diagnostics_elsewhere);
     } catch (const std::bad_alloc&) {
         settle("failed", nullptr, "not enough memory");
     } catch (const std::exception& error) {

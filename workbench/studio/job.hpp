@@ -15,6 +15,10 @@ namespace rddlc::studio {
 
 using Json = nlohmann::ordered_json;
 
+// The message for diagnostics of others, such as a C++ compiler, which are printed already.
+inline constexpr const char* diagnostics_elsewhere =
+    "the terminal of 'rddl studio' shows what is wrong";
+
 // Counts the jobs at work, so that the program can wait for them before it ends.
 class Workers {
   public:

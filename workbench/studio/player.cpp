@@ -89,10 +89,11 @@ void Player::go_to(std::size_t moment) {
 std::string Player::step(const nlohmann::json& values, bool insists) {
     const std::scoped_lock run_lock(run_mutex_);
     halt();
-    const std::scoped_lock lock(mutex_);
     const Record action = episode_.read_action(values);
     if (const std::string why = episode_.violation_of(action); !why.empty() && !insists) return why;
-    episode_.step(action, "you");
+    MadeStep made = episode_.make_step(action);
+    const std::scoped_lock lock(mutex_);
+    episode_.keep(std::move(made), "you");
     return "";
 }
 
@@ -144,11 +145,12 @@ Json Player::run_steps(Job& job, const std::string& policy, std::int64_t steps) 
         return job.stops();
     };
     PolicyActor& actor = actor_named(policy);
-    for (std::int64_t made = 0; made < steps && !episode_.is_over(); ++made) {
+    for (std::int64_t left = steps; left > 0 && !episode_.is_over(); --left) {
         const Record action = actor.act(episode_, stops);
         if (job.stops()) break;
+        MadeStep made = episode_.make_step(action);
         const std::scoped_lock lock(mutex_);
-        episode_.step(action, policy);
+        episode_.keep(std::move(made), policy);
     }
     return nullptr;
 }

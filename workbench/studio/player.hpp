@@ -54,9 +54,11 @@ class Player : public std::enable_shared_from_this<Player> {
     Json run_steps(Job& job, const std::string& policy, std::int64_t steps);
 
     const workbench::LoadedProblem problem_;
-    mutable std::mutex mutex_;  // of all below, except that a run alone changes what it reads
+    // The lock for the moments of the episode and for run_. A step that takes long is made outside
+    // it, by the run or by the holder of run_mutex_: nothing else changes the episode.
+    mutable std::mutex mutex_;
     SteppedEpisode episode_;
-    std::mutex run_mutex_;  // held while a run begins or is waited for
+    std::mutex run_mutex_;
     std::unique_ptr<PolicyActor> actor_;
     std::shared_ptr<Job> run_;
 };

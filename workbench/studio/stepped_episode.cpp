@@ -107,27 +107,30 @@ std::string SteppedEpisode::violation_of(const Record& action) const {
     return violation.message;
 }
 
-void SteppedEpisode::step(const Record& action, std::string by) {
+MadeStep SteppedEpisode::make_step(const Record& action) {
     if (is_over()) throw Failure("the episode is over", "go back, or begin another one");
-    std::string warning = violation_of(action);
     if (now().bytes > most_bytes)
         throw Failure("an episode of so many bytes is not kept here",
                       "'rddl run --trace' writes longer ones into a file");
-    double reward = 0;
+    MadeStep made{action, 0, violation_of(action), {}};
     rddl_transition out{};
-    out.rewards = &reward;
+    out.rewards = &made.reward;
     solvers::require_done(*simulator_, simulator_->step(batch_.get(), action.data(), &out));
-    Moment next = present();
-    next.total = moments_[now_].total + (next.causes & RDDL_FAULTED ? 0 : reward);
+    made.next = present();
+    made.next.total = now().total + (made.next.causes & RDDL_FAULTED ? 0 : made.reward);
+    return made;
+}
+
+void SteppedEpisode::keep(MadeStep step, std::string by) {
     branch_ += now_ + 1 < moments_.size() ? 1 : 0;
     moments_.resize(now_ + 1);
     Moment& taken = moments_.back();
-    taken.action = action;
-    taken.reward = reward;
+    taken.action = std::move(step.action);
+    taken.reward = step.reward;
     taken.by = std::move(by);
-    taken.warning = std::move(warning);
-    next.bytes = taken.bytes + bytes_of(taken);
-    moments_.push_back(std::move(next));
+    taken.warning = std::move(step.warning);
+    step.next.bytes = taken.bytes + bytes_of(taken);
+    moments_.push_back(std::move(step.next));
     ++now_;
 }
 

@@ -12,6 +12,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace rddlc::studio {
@@ -35,6 +36,14 @@ struct Moment {
     double reward = 0;
     std::string by;       // who has chosen the action: "you", or the name of a policy
     std::string warning;  // the precondition that it violates
+};
+
+// A step that was made, and is not yet among the moments.
+struct MadeStep {
+    Record action;
+    double reward = 0;
+    std::string warning;
+    Moment next;
 };
 
 class SteppedEpisode {
@@ -67,13 +76,20 @@ class SteppedEpisode {
     Record read_action(const nlohmann::json& values) const;
     // Why the action is illegal at the present moment; empty if it is legal.
     std::string violation_of(const Record& action) const;
-    // Takes the action at the present moment and forgets what came after it before. Throws a
-    // Failure if the episode is over, or too long to be kept.
-    void step(const Record& action, std::string by);
+    // Takes the action at the present moment, which may take long for a large problem, and leaves
+    // the moments as they are: others may read them meanwhile. Throws a Failure if the episode is
+    // over, or too long to be kept.
+    MadeStep make_step(const Record& action);
+    // Puts the step behind the present moment, in place of what came after it before.
+    void keep(MadeStep step, std::string by);
+    // Both.
+    void step(const Record& action, std::string by) { keep(make_step(action), std::move(by)); }
 
     // The values that differ from their defaults, as a JSON object.
     std::string action_json(const Record& action) const;
-    // {"step": 3, "state": {...}, ...}, as in docs/studio.md
+    // {"step", "state", "total"}; "observation" if the problem hides its state; "action" (of values
+    // that differ from their defaults), "reward" and "by" if an action was taken; "warning" if that
+    // was illegal; "ended" (a list of causes) and "fault" at an end. Values are as in traces.
     std::string moment_json(std::size_t moment) const;
 
   private:

@@ -62,6 +62,8 @@ Reply Studio::answer(const std::string& request, std::string_view body) {
         return refusal(400, error.what());
     } catch (const nlohmann::json::exception& error) {
         return refusal(400, error.what());
+    } catch (const Diagnosed&) {
+        return refusal(422, diagnostics_elsewhere);
     } catch (const std::bad_alloc&) {
         return refusal(503, "not enough memory");
     } catch (const std::exception& error) {

@@ -293,6 +293,10 @@ Reply Tab::train(const Wish& wish) {
         training.options.push_back(option.get<std::string>());
     training.seconds = number_in(wish, "seconds", 60.0, 0.1, 1e6);
     training.seed = seed_in(wish);
+    // As `rddl train` names them, so that it resumes the run.
+    const bool is_float = context_.load.real == RealType::Float;
+    training.settings = {{"--real", is_float ? "float" : "double"},
+                         {"--fast-math", context_.load.passes.fast_math ? "true" : "false"}};
     require_options(training);
     put_job("train", Job::start(context_.workers, [&context = context_, texts = texts_of(wish),
                                                    training](Job& job) mutable {

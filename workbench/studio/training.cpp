@@ -136,7 +136,7 @@ Json train(Job& job, const LoadedProblem& problem, const TrainingWish& wish) {
     options.folder = wish.folder;
     options.seconds = wish.seconds;
     options.seed = wish.seed;
-    options.settings = {{"--real", "double"}, {"--fast-math", "false"}};
+    options.settings = wish.settings;
     options.memory_limit = problem.files.memory_limit;
     options.quiet = true;
     options.stops = stops;

@@ -7,13 +7,15 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace rddlc::studio {
 
 struct TrainingWish {
-    std::string solver;                // "ppo" or "cgp"
-    std::vector<std::string> options;  // of the learner: "lr=0.001"
+    std::string solver;                                         // "ppo" or "cgp"
+    std::vector<std::string> options;                           // of the learner: "lr=0.001"
+    std::vector<std::pair<std::string, std::string>> settings;  // of the simulator
     double seconds = 60;
     std::uint64_t seed = 0;
     std::filesystem::path folder;  // of the run, as `rddl train --out` has it; new

@@ -6,6 +6,8 @@ import { problemIsBroken, say, seedOf } from "./try.js";
 
 const sides = [new Episode("left", { title: "first" }), new Episode("right", { title: "second", color: "--second" })];
 const transport = new Transport(sides);
+// The steps of an episode: those of the problem, unless the user gives a number.
+const horizon = () => (byId("horizon").value ? { horizon: Math.round(Number(byId("horizon").value)) } : {});
 const names = () => [byId("first").value.trim(), byId("second").value.trim()];
 const tell = (text, isBad) => say("compare-message", text, isBad);
 
@@ -15,7 +17,7 @@ async function playBoth() {
   tell("starting …");
   const policies = names();
   for (const [k, side] of sides.entries()) {
-    await side.load({ ...texts(), seed: seedOf("compare-seed"), ...(policies[k].endsWith(".rddl") ? { policy: policies[k] } : {}) });
+    await side.load({ ...texts(), ...horizon(), seed: seedOf("compare-seed"), ...(policies[k].endsWith(".rddl") ? { policy: policies[k] } : {}) });
     side.title = policies[k];
     side.isPending = true;
   }
@@ -36,7 +38,7 @@ async function playBoth() {
 async function evaluate() {
   if (problemIsBroken("compare-message")) return;
   const [first, second] = names();
-  await ask("compare", { ...texts(), first, second, seed: seedOf("compare-seed"), episodes: Math.round(Number(byId("episodes").value)) });
+  await ask("compare", { ...texts(), ...horizon(), first, second, seed: seedOf("compare-seed"), episodes: Math.round(Number(byId("episodes").value)) });
   byId("outcome").replaceChildren();
   await followJob();
 }

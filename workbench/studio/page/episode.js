@@ -41,7 +41,7 @@ export class Episode {
     table.setAttribute("aria-label", "Values of the state");
     this.values = make("div", { className: "values" }, this.filter, table, this.more);
     this.charts = make("div", { className: "charts" });
-    this.root = make("div", { className: "episode" }, this.figure, this.charts, this.values);
+    this.root = make("div", { className: "episode", hidden: true }, this.figure, this.charts, this.values);
     this.filter.addEventListener("input", () => this.showValues());
     this.chartOf = new Map();
     new ResizeObserver(() => this.drawCharts()).observe(this.charts);
@@ -134,6 +134,7 @@ export class Episode {
 
   show(place) {
     if (!this.isThere) return;
+    this.root.hidden = false;
     this.at = Math.min(Math.max(place, 0), this.last);
     this.showCaption();
     this.showPicture();
@@ -162,15 +163,14 @@ export class Episode {
     try {
       while (this.wantsPicture) {
         this.wantsPicture = false;
-        const at = this.at, branch = this.branch;
+        const at = this.at;
         const wide = Math.min(Math.max(Math.round(this.figure.clientWidth * (devicePixelRatio || 1)), 400), 1200);
         const blob = await ask("picture", { player: this.player, step: at, visualizer: this.visualizer,
           width: wide, height: Math.round((wide * 2) / 3) }, { binary: true });
         const before = this.picture.src;
         this.picture.src = URL.createObjectURL(blob);
-        this.picture.dataset.step = at;
-        this.picture.dataset.branch = branch;
         await this.picture.decode().catch(() => {});
+        this.picture.dataset.step = at;  // that is seen now
         if (before.startsWith("blob:")) URL.revokeObjectURL(before);
       }
     } catch {  // a moment that was dropped meanwhile, or the program has ended, which is told elsewhere
@@ -269,7 +269,7 @@ function entries(values, before, suffix) {
     name: name + suffix, key: name, value, isChanged: before[name] !== undefined && before[name] !== value }));
 }
 
-export function actionText(action) {
+function actionText(action) {
   const parts = Object.entries(action).map(([name, value]) => (value === true ? name : `${name} = ${shown(value)}`));
   return parts.length === 0 ? "default action" : parts.slice(0, 6).join(", ") + (parts.length > 6 ? ", …" : "");
 }
@@ -305,7 +305,6 @@ export class Transport {
       }
     });
     for (const episode of episodes) episode.onPick = (place) => this.move(place);
-    this.isPast = false;  // the place is beyond what is known: more moments will come
   }
 
   get last() {

@@ -139,7 +139,7 @@ async function take(insists) {
   transport.pause();
   const violation = await episode.takeAction(chosenAction(), insists);
   byId("take-anyway").hidden = !violation;
-  transport.show(violation ? episode.at : episode.at);
+  transport.show(episode.at);
   const before = episode.moments[episode.at - 1];
   tell(violation ? `This action is illegal: ${violation}` : `reward ${shown(before?.reward ?? 0)}`, Boolean(violation));
 }
@@ -170,7 +170,7 @@ export function textsChanged() {
   else if (byId("try-message").textContent.startsWith("The texts have changed")) tell("");
 }
 
-export async function usePolicy(name) {
+export function usePolicy(name) {
   byId("policy").value = name;
   byId("policy").dispatchEvent(new Event("change"));
 }
@@ -178,9 +178,6 @@ export async function usePolicy(name) {
 export async function startTry() {
   byId("hand-episode").append(transport.root, episode.root);
   byId("hand").hidden = true;
-  episode.root.hidden = true;
-  const show = episode.show.bind(episode);
-  episode.show = (place) => { episode.root.hidden = false; show(place); };
   byId("begin").addEventListener("click", guarded(begin));
   byId("run").addEventListener("click", guarded(() => run()));
   byId("once").addEventListener("click", guarded(() => run(1)));
