@@ -1,8 +1,11 @@
 #include "options.hpp"
 
+#include "cache/cache_folder.hpp"
+#include "cache/prepared_runtime.hpp"
 #include "command_line/explain_option.hpp"
 #include "driver/explain.hpp"
 #include "driver/files.hpp"
+#include "support/failure.hpp"
 #include "support/program.hpp"
 
 #include <fmt/format.h>
@@ -33,6 +36,7 @@ struct Arguments {
     std::string policy;
     std::string instance;
     std::string output;
+    bool portable = false;
     std::vector<std::string> extern_headers;
     std::vector<std::string> print;
     std::string stop_after;
@@ -93,6 +97,10 @@ void add_file_options(Command& command, Arguments& arguments) {
         "write FILE: its extension .cpp, .hpp or .so selects the output format; without it the "
         "C++ text goes to standard output",
         arguments.output);
+    add_flag(command, "--portable",
+             "make the .so for any processor of the architecture; otherwise it needs the vector "
+             "registers of this one",
+             arguments.portable);
     add_repeated_option(command, "--extern", "FILE",
                         "include FILE, a C++ header that defines the external functions; may be "
                         "repeated",
@@ -301,6 +309,24 @@ Statistics statistics_format(const std::string& word) {
     throw usage(fmt::format("--stats={} is not known; --stats and --stats=json are", word));
 }
 
+bool portable(const Arguments& arguments) {
+    if (arguments.portable && (arguments.output.empty() ||
+                               output_kind(arguments.output) != OutputKind::SharedObject))
+        throw usage("--portable needs a shared object as output: -o FILE.so");
+    return arguments.portable;
+}
+
+// The code that all shared objects have in common, from the cache that rddl also uses. All of it is
+// compiled again if there is no such folder.
+std::optional<std::filesystem::path> runtime_in_cache(RealType real) {
+    try {
+        return workbench::prepared_runtime(workbench::cache_folder(), workbench::toolchain_text(),
+                                           real);
+    } catch (const Failure&) {
+        return std::nullopt;
+    }
+}
+
 CompileOptions compile_options(const Arguments& arguments) {
     CompileOptions options;
     options.inputs.assign(arguments.inputs.begin(), arguments.inputs.end());
@@ -318,6 +344,12 @@ CompileOptions compile_options(const Arguments& arguments) {
     options.lane_count = std::stoi(arguments.lanes);
     options.real = arguments.real == "float" ? RealType::Float : RealType::Double;
     options.memory_limit = arguments.memory_limit;
+    options.portable = portable(arguments);
+    // It holds packs of the usual size alone.
+    if (options.lane_count == CompileOptions{}.lane_count)
+        options.prepared_runtime = [real = options.real] {
+            return runtime_in_cache(real);
+        };
     options.dependency_file = dependency_file(arguments);
     options.declaration_file = declaration_file(arguments);
     options.diagnostics = diagnostic_options(arguments);

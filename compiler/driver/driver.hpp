@@ -44,6 +44,11 @@ struct CompileOptions {
     std::map<std::filesystem::path, std::string> texts;
     // .cpp, .hpp or .so; absent: nothing is written.
     std::optional<std::filesystem::path> output;
+    // A .so for any processor of the architecture, not only for those like this one.
+    bool portable = false;
+    // Where prepare_runtime (driver/shared_object.hpp) has put its files for a .so that is not
+    // portable, if there are any. Asked when one is made; may be empty.
+    std::function<std::optional<std::filesystem::path>()> prepared_runtime;
     // C++ headers that define the external functions.
     std::vector<std::filesystem::path> extern_headers;
     // A file that holds a domain and no instance is checked, as far as that can be done, and no

@@ -35,7 +35,11 @@ void write_shared_object(const std::filesystem::path& output, const std::string&
     const TemporaryFolder work;
     const auto source = work.path() / "simulator.cpp", object = work.path() / "simulator.so";
     write_file(source, text, used);
-    if (!build_shared_object(source, object, Processors::Any, options.extern_headers, diagnostics))
+    std::optional<std::filesystem::path> prepared;
+    if (!options.portable && options.prepared_runtime) prepared = options.prepared_runtime();
+    const Processors processors = options.portable ? Processors::Any : Processors::LikeThis;
+    if (!build_shared_object(source, object, processors, options.extern_headers, diagnostics,
+                             prepared))
         return;
     constexpr mode_t executable = 0777;
     write_file(output, read_file(object), used, executable);

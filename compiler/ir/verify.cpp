@@ -257,10 +257,29 @@ class Verifier {
                buffer.storage != Storage::Constant && type(form.place) == Scalar::Int;
     }
     bool fits(const Local&, Scalar) const { return true; }  // compared with its Let
-    bool fits(const Convert& form, Scalar to) const { return type(form.operand) < to; }
+    bool fits(const Convert& form, Scalar to) const {
+        return type(form.operand) < to && (!form.skips_int || rounds(form.operand));
+    }
+    bool rounds(NodeId id) const {
+        const auto* apply = std::get_if<Apply>(&program_[id].form);
+        return apply && typing_of(apply->op) == Typing::Rounding;
+    }
     bool fits(const Select& form, Scalar result) const {
         return type(form.condition) == Scalar::Bool && type(form.then_value) == result &&
-               type(form.else_value) == result;
+               type(form.else_value) == result && may_be_evaluated_so(form);
+    }
+    bool may_be_evaluated_so(const Select& form) const {
+        const Properties& first = properties_[form.then_value.index];
+        const Properties& second = properties_[form.else_value.index];
+        switch (form.evaluated) {
+            case Evaluated::Branch:
+                return true;
+            case Evaluated::PackBoth:
+                return is_droppable(first) && is_droppable(second);
+            case Evaluated::Both:
+                return !is_lazy(program_, form, first, second);
+        }
+        return false;
     }
     bool fits(const Apply& form, Scalar result) const {
         if (form.operands.size() != static_cast<std::size_t>(arity_of(form.op))) return false;
@@ -329,7 +348,8 @@ class Verifier {
             const Scalar taken = takes_int(form.distribution, i) ? Scalar::Int : Scalar::Real;
             if (type(form.parameters[i]) != taken) return false;
         }
-        return drawn(form.distribution) == result;
+        return drawn(form.distribution) == result &&
+               (!form.is_valid || form.distribution == Distribution::Bernoulli);
     }
     static std::optional<Scalar> drawn(Distribution distribution) {
         switch (drawn_by(distribution)) {

@@ -70,6 +70,15 @@ TEST_F(CommandLine, NamesTheEntry) {
     EXPECT_EQ(with({"--entry=narrow", "-o", "sim.so"}).status, 2);
 }
 
+TEST_F(CommandLine, MakesOnlySharedObjectsPortable) {
+    for (const std::vector<std::string>& output :
+         {std::vector<std::string>{}, {"-o", "sim.cpp"}, {"-o", "sim.hpp"}}) {
+        std::vector<std::string> arguments = {"domain.rddl", "instance.rddl", "--portable"};
+        arguments.insert(arguments.end(), output.begin(), output.end());
+        EXPECT_EQ(rddlc(arguments).status, 2);
+    }
+}
+
 TEST_F(CommandLine, SuggestsAnOption) {
     EXPECT_NE(rddlc({"domain.rddl", "--ouput", "x.cpp"}).output.find("did you mean '--output'?"),
               std::string::npos);

@@ -146,6 +146,57 @@ TEST_F(Output, ThatTheCompilerRefusesIsAnInternalError) {
     EXPECT_EQ(files().size(), 3u);
 }
 
+// A compiler that writes down what it is asked, and makes files that are not empty.
+class RecordedCompiler : public Output {
+  protected:
+    RecordedCompiler() {
+        write("compiler.sh",
+              "echo \"$*\" >> asked\n"
+              "while test $# -gt 1; do test $1 != -o || echo made > \"$2\"; shift; done\n");
+    }
+    // The commands that made the shared object.
+    std::string asked(const std::string& cache, const std::vector<std::string>& options = {}) {
+        std::vector<std::string> arguments = {"domain.rddl", "instance.rddl", "-o", "sim.so"};
+        arguments.insert(arguments.end(), options.begin(), options.end());
+        fs::remove("asked");
+        const Result result =
+            rddlc_with({"CXX=sh compiler.sh", "XDG_CACHE_HOME=" + cache}, arguments);
+        EXPECT_EQ(result.status, 0) << result.output;
+        return read("asked");
+    }
+    static bool holds(const std::string& text, const std::string& part) {
+        return text.find(part) != std::string::npos;
+    }
+};
+
+TEST_F(RecordedCompiler, CompilesCommonCodeOnce) {
+    const std::string cache = fs::absolute("cache");
+    EXPECT_TRUE(holds(asked(cache), "/rddl/batches.cpp"));
+    const std::string again = asked(cache);
+    EXPECT_FALSE(holds(again, "/rddl/batches.cpp")) << again;
+    EXPECT_TRUE(holds(again, "-DRDDL_LINKS_BATCHES")) << again;
+    EXPECT_TRUE(holds(again, "/batches.o")) << again;
+    // It holds packs of another size.
+    EXPECT_FALSE(holds(asked(cache, {"--lanes=8"}), "-DRDDL_LINKS_BATCHES"));
+}
+
+TEST_F(RecordedCompiler, CompilesEverythingWithoutACache) {
+    write("cache", "no folder");
+    const std::string commands = asked(fs::absolute("cache"));
+    EXPECT_FALSE(holds(commands, "-DRDDL_LINKS_BATCHES")) << commands;
+    EXPECT_TRUE(holds(commands, "-shared")) << commands;
+}
+
+#ifdef __x86_64__
+TEST_F(RecordedCompiler, CompilesForEveryProcessorIfAskedTo) {
+    const std::string cache = fs::absolute("cache");
+    EXPECT_FALSE(holds(asked(cache), "rddl_simulator_sse2"));
+    const std::string commands = asked(cache, {"--portable"});
+    for (const char* part : {"rddl_simulator_sse2", "rddl_simulator_avx2", "rddl_simulator_avx512"})
+        EXPECT_TRUE(holds(commands, part)) << part;
+}
+#endif
+
 TEST_F(Output, NeedsInputsThatCanBeRead) {
     const Result missing = rddlc({"domain.rddl", "none.rddl", "-o", "sim.cpp"});
     EXPECT_EQ(missing.status, 1);

@@ -123,7 +123,7 @@ class Expressions {
     tree::Expression lower(const ir::Node& node, const ir::Fault& fault);
 
     tree::Expression inline_binder(const ir::Node& node);
-    tree::Expression call(const std::string& function, const std::vector<ir::NodeId>& operands,
+    tree::Expression call(std::string_view function, const std::vector<ir::NodeId>& operands,
                           const std::optional<ir::Place>& place = {});
     std::string binder_function(const ir::Node& binder);
     tree::Expressions binder_arguments(const ir::Node& binder);
@@ -131,7 +131,9 @@ class Expressions {
     tree::Expression parameter(ir::VariableId variable, ir::NodeId body) const;
     // The range of an aggregation: a count, a row of a table, or rddl::IndexRange(begin, end).
     tree::Expression range(const ir::Reduce& reduce);
-    std::optional<tree::Expression> element_of_row(const ir::Load& load);
+    tree::Expression of_objects(const char* function, tree::Expression table,
+                                std::span<const ir::NodeId> indices);
+    tree::Expression element_of_row(const ir::Load& load);
     tree::Expressions all_of(std::span<const ir::NodeId> operands);
     // The context and the place of a draw or a fault.
     tree::Expressions place(const ir::Place& place);
@@ -141,7 +143,6 @@ class Expressions {
     tree::Statement external_call(const ir::Call& call);
     tree::Expression index(ir::NodeId id);
     bool is_plain_index(ir::NodeId id) const;
-    bool needs_no_check(const ir::Sample& sample) const;
 
     const Unit& unit_;
     Scope scope_;
