@@ -31,7 +31,7 @@ enum class Mode : std::uint8_t {
 struct Relaxation {
     Mode mode = Mode::Exact;
     double sharpness = 10;  // of comparisons: sigmoid(sharpness * (a - b)) for a > b
-    // Of soft Bernoulli draws (Jang, Gu and Poole, 2017; Maddison, Mnih and Teh, 2017).
+    // Soft Bernoulli draws have it (Jang, Gu and Poole, 2017; Maddison, Mnih and Teh, 2017).
     double temperature = 1;
 };
 
@@ -72,9 +72,11 @@ class Evaluation {
     void compute(const Instruction& instruction);
     void compute_each_lane(const Instruction& instruction);
     void propagate(const Instruction& instruction);
-    struct Partials;  // backward.cpp
     template <class Derivatives>
     void add_partials(const Instruction& instruction, const Derivatives& derivatives);
+    bool propagate_real(const Instruction& instruction);
+    template <class Terms>
+    void add_lanes(Slot slot, const Terms& term);
     void propagate_others(const Instruction& instruction);
     void propagate_list(const Instruction& instruction, std::size_t lane);
     template <class Factor>

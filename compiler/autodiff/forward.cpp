@@ -13,6 +13,45 @@ void for_lanes(Lane& out, const Lane& a, const Lane& b, const Operation& operati
     for (std::size_t lane = 0; lane < lanes; ++lane) out[lane] = operation(a[lane], b[lane]);
 }
 
+// False for an operator that has no loop here.
+bool compute_real(Operator op, Lane& out, const Lane& a, const Lane& b) {
+    if (op == Operator::Add)
+        for_lanes(out, a, b, [](double x, double y) { return x + y; });
+    else if (op == Operator::Subtract)
+        for_lanes(out, a, b, [](double x, double y) { return x - y; });
+    else if (op == Operator::Multiply)
+        for_lanes(out, a, b, [](double x, double y) { return x * y; });
+    else if (op == Operator::Divide)
+        for_lanes(out, a, b, [](double x, double y) { return x / y; });
+    else if (op == Operator::Negate)
+        for_lanes(out, a, b, [](double x, double) { return -x; });
+    else if (op == Operator::Minimum)
+        for_lanes(out, a, b, [](double x, double y) { return rddl::minimum(x, y); });
+    else if (op == Operator::Maximum)
+        for_lanes(out, a, b, [](double x, double y) { return rddl::maximum(x, y); });
+    else
+        return false;
+    return true;
+}
+
+void compute_comparison(Operator op, Lane& out, const Lane& a, const Lane& b) {
+    const auto compute = [&](auto compare) {
+        for_lanes(out, a, b, [&](double x, double y) { return compare(x, y) ? 1.0 : 0.0; });
+    };
+    if (op == Operator::Equal)
+        compute([](double x, double y) { return x == y; });
+    else if (op == Operator::NotEqual)
+        compute([](double x, double y) { return x != y; });
+    else if (op == Operator::Less)
+        compute([](double x, double y) { return x < y; });
+    else if (op == Operator::LessEqual)
+        compute([](double x, double y) { return x <= y; });
+    else if (op == Operator::Greater)
+        compute([](double x, double y) { return x > y; });
+    else
+        compute([](double x, double y) { return x >= y; });
+}
+
 bool gives_int(Code code) {
     return is_one_of(code,
                      {Code::IntOperator, Code::IntSum, Code::ToInt, Code::DrawInt, Code::Binomial});
@@ -38,19 +77,8 @@ void Evaluation::forward(std::span<const rddl::StreamKey> keys, std::uint32_t st
 
 // The commonest instructions have loops over lanes of their own.
 void Evaluation::compute(const Instruction& instruction) {
+    const bool is_soft = relaxation_.mode == Mode::Soft;
     Lane& out = values_[instruction.out];
-    if (instruction.code == Code::RealOperator) {
-        const Lane& a = values_[instruction.a];
-        const Lane& b = instruction.b == no_slot ? a : values_[instruction.b];
-        if (instruction.op == Operator::Add)
-            return for_lanes(out, a, b, [](double x, double y) { return x + y; });
-        if (instruction.op == Operator::Subtract)
-            return for_lanes(out, a, b, [](double x, double y) { return x - y; });
-        if (instruction.op == Operator::Multiply)
-            return for_lanes(out, a, b, [](double x, double y) { return x * y; });
-        if (instruction.op == Operator::Divide)
-            return for_lanes(out, a, b, [](double x, double y) { return x / y; });
-    }
     if (instruction.code == Code::Sum) {
         out.fill(0);
         for (std::uint32_t i = 0; i < instruction.count; ++i)
@@ -58,9 +86,25 @@ void Evaluation::compute(const Instruction& instruction) {
                       [](double x, double y) { return x + y; });
         return;
     }
-    if (instruction.code == Code::GuardedProduct && relaxation_.mode != Mode::Soft)
-        return for_lanes(out, values_[instruction.a], values_[instruction.b],
-                         [](double x, double y) { return x == 0 ? x : x * y; });
+    const bool has_operands = instruction.a != no_slot;
+    if (!has_operands) return compute_each_lane(instruction);
+    const Lane& a = values_[instruction.a];
+    const Lane& b = instruction.b == no_slot ? a : values_[instruction.b];
+    if (instruction.code == Code::RealOperator && compute_real(instruction.op, out, a, b)) return;
+    if (is_soft) return compute_each_lane(instruction);
+    if (instruction.code == Code::Comparison) return compute_comparison(instruction.op, out, a, b);
+    if (instruction.code == Code::GuardedProduct)
+        return for_lanes(out, a, b, [](double x, double y) { return x == 0 ? x : x * y; });
+    if (instruction.code == Code::Select) {
+        const Lane& otherwise = values_[instruction.c];
+        for (std::size_t lane = 0; lane < lanes; ++lane)
+            out[lane] = a[lane] != 0 ? b[lane] : otherwise[lane];
+        return;
+    }
+    if (instruction.code == Code::Logic && instruction.op == Operator::And)
+        return for_lanes(out, a, b, [](double x, double y) { return x * y; });
+    if (instruction.code == Code::Logic && instruction.op == Operator::Not)
+        return for_lanes(out, a, b, [](double x, double) { return 1 - x; });
     compute_each_lane(instruction);
 }
 

@@ -63,8 +63,8 @@ struct Constant {
     double value;
 };
 
-// What a step reads and gives. The numbers of a record are the elements of its fluents, in the
-// order of the record (ir/layout.hpp).
+// A step, its inputs and its results. The numbers of a record are the elements of its fluents, in
+// the order of the record (ir/layout.hpp).
 struct StraightLine {
     std::vector<Instruction> instructions;
     std::vector<Slot> operands;  // of all lists
@@ -87,5 +87,8 @@ inline constexpr std::size_t most_instructions = 20'000'000;
 // From the output of `ground`. Throws Failure with a sentence for external functions, functions of
 // matrices and random vectors, which have no derivatives here.
 StraightLine unroll(const ir::Program& program);
+
+// Whether it has instructions whose derivatives a relaxation changes (evaluation.hpp).
+bool can_be_relaxed(const StraightLine& program);
 
 }  // namespace rddlc::autodiff

@@ -587,6 +587,13 @@ class Unroller {
 
 }  // namespace
 
+bool can_be_relaxed(const StraightLine& program) {
+    return std::ranges::any_of(program.instructions, [](const Instruction& instruction) {
+        return is_one_of(instruction.code, {Code::ToInt, Code::Comparison, Code::Bernoulli,
+                                            Code::DrawInt, Code::Binomial, Code::Discrete});
+    });
+}
+
 StraightLine unroll(const ir::Program& program) {
     return Unroller(program).run();
 }

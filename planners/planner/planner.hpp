@@ -2,6 +2,7 @@
 #pragma once
 
 #include "solvers/batches/stops.hpp"
+#include "solvers/gradients/step_derivatives.hpp"
 #include "solvers/policies/policy.hpp"
 
 #include <rddl/simulator.h>
@@ -66,6 +67,8 @@ struct PlannerContext {
     std::int64_t memory_limit;
     // The policy that roll-outs follow; nothing: the user names none.
     std::optional<solvers::Policy> base = {};
+    // Empty where the text of the problem is not at hand.
+    solvers::DerivativesSource derivatives = {};
 };
 
 }  // namespace rddlc::planners

@@ -2,6 +2,8 @@
 
 #include "planners/cem/cem.hpp"
 #include "planners/cem/cem_options.hpp"
+#include "planners/gradient/gradient.hpp"
+#include "planners/gradient/gradient_options.hpp"
 #include "planners/planner/common_options.hpp"
 #include "planners/rollout/rollout.hpp"
 #include "planners/rollout/rollout_options.hpp"
@@ -81,6 +83,10 @@ const std::vector<Entry>& entries() {
                                "the best of many plans, sampled again and again; for "
                                "reals, ints, bools and objects",
                                false, cem_option_table),
+        entry<GradientOptions, Gradient>("gradient",
+                                         "plans that go up the exact gradient of their return; "
+                                         "for reals, ints between bounds and bools",
+                                         false, gradient_option_table),
         entry<RolloutOptions, Rollout>("rollout",
                                        "each action of a policy improved: others are tried, and "
                                        "the policy plays on",
@@ -156,8 +162,8 @@ class PlanningActor {
     void act(solvers::Decision& decision) {
         const rddl_problem& problem = *simulator_.problem;
         if (!planner_)
-            planner_ = chosen_.make(
-                {simulator_, environments_, decision.horizon, settings_.memory_limit, base_});
+            planner_ = chosen_.make({simulator_, environments_, decision.horizon,
+                                     settings_.memory_limit, base_, settings_.derivatives});
         const std::int64_t horizon = solvers::steps_of_horizon(problem, decision.horizon);
         if (base_) ask_base(decision);
         for (std::size_t i = 0; i < decision.running.size(); ++i) {

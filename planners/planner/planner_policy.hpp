@@ -38,6 +38,8 @@ struct PolicySettings {
     std::function<solvers::Policy(const std::string& name)> named;
     // Takes what each decision was made by, from all threads; may be empty.
     std::function<void(const Explanation&)> explain = {};
+    // For planners that need derivatives; empty where the text of the problem is not at hand.
+    solvers::DerivativesSource derivatives = {};
 };
 
 // Throws a Failure where the planner does not take the problem. The simulator must outlive it.

@@ -241,8 +241,11 @@ Policy policy_of_text(const LoadedProblem& problem, const std::string& text, boo
 
 // With the seed of its text, or 0.
 Policy planner(const LoadedProblem& problem, const std::string& text) {
-    return {problem.simulator, [text](const rddl_simulator& simulator) {
-                return workbench::policy_named(simulator, text, false, 0);
+    workbench::PlannerSettings planning;
+    planning.derivatives = problem.derivatives;
+    return {problem.simulator, [text, planning](const rddl_simulator& simulator) {
+                return workbench::policy_named(simulator, text, false, 0, default_memory_limit,
+                                               planning);
             }};
 }
 

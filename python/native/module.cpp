@@ -1,4 +1,5 @@
 // The native part of the Python package; users import python/rddlc/.
+#include "native/derivatives.hpp"
 #include "native/dictionary_reader.hpp"
 #include "native/dictionary_writer.hpp"
 #include "native/enumeration.hpp"
@@ -19,4 +20,5 @@ NB_MODULE(_native, module) {
     rddlc::python::add_enumeration(module);
     rddlc::python::add_painter(module);
     rddlc::python::add_learners(module);
+    rddlc::python::add_derivatives(module);
 }

@@ -9,7 +9,7 @@ from __future__ import annotations
 import os
 from typing import Any
 
-from . import _native, callbacks, causes, plan
+from . import _native, callbacks, causes, gradients, plan
 from .arguments import keywords_of, refuse_unknown
 from .environment import RDDLEnv
 from .errors import ActionError, ArgumentError, CompileError, EpisodeOver, Error
@@ -44,6 +44,7 @@ __all__ = [
     "State",
     "callbacks",
     "causes",
+    "gradients",
     "make",
     "make_vec",
     "plan",

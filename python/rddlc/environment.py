@@ -19,6 +19,7 @@ from numpy.typing import NDArray
 from . import _native, causes
 from .arguments import one_of, options_of_reset, seed_of, seed_or_none, size_of, whole_or_none
 from .errors import ArgumentError, EpisodeOver, Error
+from .gradients import Derivatives, Jacobian
 from .preconditions import check_preconditions
 from .problem_properties import ProblemProperties
 from .problems import Problem, batch_horizon
@@ -47,6 +48,8 @@ class RDDLEnv(ProblemProperties, gymnasium.Env[Any, Any]):
         "render_modes": ["human", "rgb_array", "rgb_array_list", "ansi"],
         "render_fps": 10,
     }
+
+    _derivatives: Derivatives | None = None
 
     _np_random_seed: int | None = None  # which Gymnasium sets since 1.0
 
@@ -292,6 +295,18 @@ class RDDLEnv(ProblemProperties, gymnasium.Env[Any, Any]):
     def _restore(self, state: State) -> None:
         self._batch.write_state(0, self.problem.state_form.record_of(state), state.steps)
         self._ended = state.causes
+
+    def jacobian(self, state: Any, action: Any, *, seed: int = 0) -> Jacobian:
+        """Exact derivatives of a step by state and action, which changes nothing here.
+
+        state: None: the present one; an `rddlc.State`, a dictionary of values, or an array.
+        action: a dictionary of values, or an array. seed: of what the step draws. Relaxed
+        derivatives, many steps at once and torch: `rddlc.gradients.Derivatives`.
+        """
+        if self._derivatives is None:
+            self._derivatives = Derivatives(self.problem)
+        given = self.get_state() if state is None else state
+        return self._derivatives.jacobian(given, action, seed=seed)
 
     def interm_fluents(self) -> dict[str, NDArray[np.generic]]:
         """Values of interm- and derived-fluents in the last step, by their names: of an interpreted

@@ -19,7 +19,7 @@ from .evaluation import Evaluation, evaluation_of
 from .learners import Solvable, Wrapped
 from .problems import Problem
 
-__all__ = ["CEM", "Planner", "Rollout", "UCT"]
+__all__ = ["CEM", "Gradient", "Planner", "Rollout", "UCT"]
 
 
 class Planner:
@@ -80,6 +80,15 @@ class CEM(Planner):
 
     __doc__ = (__doc__ or "") + _native.planner_options("cem")
     name = "cem"
+
+
+class Gradient(Planner):
+    """Plans that go up the exact gradient of their return, for reals, ints between bounds and bools:
+
+    """
+
+    __doc__ = (__doc__ or "") + _native.planner_options("gradient")
+    name = "gradient"
 
 
 class Rollout(Planner):

@@ -5,7 +5,7 @@ import re
 from pathlib import Path
 
 MODULES = ["__init__", "environment", "vector", "problem_properties", "problems", "states", "model", "learners",
-           "plan", "evaluation", "registration", "callbacks", "transitions", "causes", "errors", "adapters/sb3",
+           "plan", "gradients", "evaluation", "registration", "callbacks", "transitions", "causes", "errors", "adapters/sb3",
            "adapters/skdecide", "adapters/rllib", "adapters/pyrddlgym"]
 OPTION = re.compile(r"^\w+(?:, \w+)*: ")
 

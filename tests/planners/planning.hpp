@@ -73,11 +73,13 @@ struct Played {
 };
 
 inline Played run(const rddl_simulator& simulator, const std::string& planner,
-                  std::int64_t episodes = 1, int threads = 1, std::uint64_t seed = 0) {
+                  std::int64_t episodes = 1, int threads = 1, std::uint64_t seed = 0,
+                  const solvers::DerivativesSource& derivatives = {}) {
     Played plan;
     std::mutex mutex;
     PolicySettings settings = settings_of(simulator);
     settings.seed = seed;
+    settings.derivatives = derivatives;
     settings.explain = [&](const Explanation& explanation) {
         const std::scoped_lock lock(mutex);
         plan.explanation.insert_or_assign({explanation.episode, explanation.step}, explanation);

@@ -92,7 +92,7 @@ class Shell(unittest.TestCase):
     def test_bash_completes_commands(self):
         self.assertEqual(self.complete("rddl", "ru"), ["run"])
         self.assertEqual(self.complete("rddl", "help", "ve"), ["verify"])
-        self.assertEqual(self.complete("rddl", "train", "p"), ["ppo"])
+        self.assertEqual(self.complete("rddl", "train", "pp"), ["ppo"])
         self.assertEqual(self.complete("rddl", "train", "ppo"), ["ppo"])
         self.assertLessEqual({*commands(), "help", "--version"}, set(self.complete("rddl", "")))
 

@@ -6,6 +6,7 @@
 #include "engines/compiled_simulator.hpp"
 #include "engines/external_library.hpp"
 #include "engines/interpreted_simulator.hpp"
+#include "engines/step_derivatives.hpp"
 #include "engines/switching_simulator.hpp"
 #include "problems/front_end.hpp"
 #include "support/failure.hpp"
@@ -213,6 +214,7 @@ LoadedProblem load_compilation(Compilation compilation, const ProblemFiles& file
                                const LoadOptions& options) {
     LoadedProblem problem = loaded(std::move(compilation), files, options);
     problem.used = used_files(files, options);
+    problem.derivatives = derivatives_of(files, options);
     return problem;
 }
 
@@ -236,8 +238,10 @@ std::optional<LoadedProblem> load_known(const ProblemFiles& files, const LoadOpt
     const auto object = known_object_of(files, options);
     Simulator simulator = object ? load_object(*object) : nullptr;
     if (!simulator) return std::nullopt;
-    return LoadedProblem{files, std::move(simulator), LoadCosts{}, used_files(files, options),
-                         true};
+    LoadedProblem problem{files, std::move(simulator), LoadCosts{}, used_files(files, options),
+                          true};
+    problem.derivatives = derivatives_of(files, options);
+    return problem;
 }
 
 LoadedProblem load_problem(const ProblemFiles& files, const LoadOptions& options) {

@@ -6,6 +6,7 @@
 #include "engines/background_build.hpp"
 #include "passes/passes.hpp"
 #include "problems/problem_lookup.hpp"
+#include "solvers/gradients/step_derivatives.hpp"
 #include "support/files.hpp"
 
 #include <rddl/simulator.h>
@@ -62,6 +63,8 @@ struct LoadedProblem {
     bool is_compiled = false;
     // The build of Engine::Auto, unless the simulator is compiled already.
     std::shared_ptr<BackgroundBuild> background = {};
+    // Derivatives of steps; the problem is compiled again when they are asked for first.
+    solvers::DerivativesSource derivatives = {};
 };
 
 // The engine in place of Auto where that has to wait for the C++ compiler anyway: external

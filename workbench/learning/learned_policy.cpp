@@ -177,7 +177,8 @@ solvers::Policy policy_named(const rddl_simulator& simulator, const std::string&
                              std::uint64_t seed, std::int64_t memory_limit,
                              const PlannerSettings& planning) {
     if (planners::is_planner(name)) {
-        planners::PolicySettings settings{seed, planning.cheat, memory_limit, {}, planning.explain};
+        planners::PolicySettings settings{seed, planning.cheat,   memory_limit,
+                                          {},   planning.explain, planning.derivatives};
         settings.named = [&simulator, random, seed, memory_limit](const std::string& base) {
             return policy_named(simulator, base, random, seed, memory_limit);
         };

@@ -16,9 +16,11 @@ namespace rddlc::workbench {
 
 // Settings of planners from the command line.
 struct PlannerSettings {
-    bool cheat = false;        // they see the state of problems that hide it
-    std::string explanations;  // a file for what decisions were made by; "": none
+    bool cheat = false;             // they see the state of problems that hide it
+    std::string explanations = {};  // a file for what decisions were made by; "": none
     std::function<void(const planners::Explanation&)> explain = {};
+    // Derivatives of steps (engines/step_derivatives.hpp), for planners that need them.
+    solvers::DerivativesSource derivatives = {};
 };
 
 // All planners with their options, for --help.

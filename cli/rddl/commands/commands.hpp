@@ -20,6 +20,8 @@ Command run_command();
 Command evaluate_command();
 Command compare_command();
 Command train_command();
+Command train_plan_command();  // of train_command
+Command fit_command();
 Command export_command();
 Command plot_command();
 Command replay_command();

@@ -194,6 +194,7 @@ ExitStatus evaluate_all(const EvaluationOptions& options) {
     EvaluationOptions chosen = options;
     chosen.episodes.preconditions = Preconditions::Warn;  // so that they are counted
     chosen.episodes.memory_limit = files.memory_limit;
+    chosen.planning.derivatives = problem.derivatives;
     Explanations explanations(chosen.planning, *simulator.problem, problem.used);
     std::vector<Evaluation> all;
     for (const std::string& name : options.policies) {

@@ -133,6 +133,7 @@ ExitStatus play(PlayCommandOptions options) {
     if (!problem) problem = load_task(session, options);
     const rddl_simulator& simulator = *problem->simulator;
     require_sight(*simulator.problem, options.policy);
+    options.planning.derivatives = problem->derivatives;
     Explanations explanations(options.planning, *simulator.problem, problem->used);
     const solvers::Policy policy = policy_named(simulator, options.policy, false, options.seed,
                                                 options.problem.memory_limit, options.planning);

@@ -221,6 +221,7 @@ ExitStatus run(const RunOptions& options) {
     }
     RolloutOptions rollout_options = options.rollouts;
     rollout_options.memory_limit = files.memory_limit;
+    rollout_options.planning.derivatives = problem.derivatives;
     Explanations explanations(rollout_options.planning, description, problem.used);
     if (options.pictures.watch) {  // step by step
         rollout_options.threads = 1;

@@ -164,12 +164,14 @@ struct TrainPpoOptions : TrainOptions {
 };
 
 // Plays the policy that is to be imitated, with a progress bar.
-solvers::Demonstrate demonstrate(const rddl_simulator& simulator, const TrainPpoOptions& options) {
+solvers::Demonstrate demonstrate(const LoadedProblem& problem, const TrainPpoOptions& options) {
     if (options.imitated.empty()) return {};
-    return [&simulator, &options](const solvers::PpoModel& model) {
+    const rddl_simulator& simulator = *problem.simulator;
+    return [&simulator, &problem, &options](const solvers::PpoModel& model) {
         const std::uint64_t seed = options.training.seed + 0x696D6974;  // not that of evaluations
         const solvers::Policy policy =
-            policy_named(simulator, options.imitated, false, seed, options.problem.memory_limit);
+            policy_named(simulator, options.imitated, false, seed, options.problem.memory_limit,
+                         {.derivatives = problem.derivatives});
         solvers::EpisodeOptions episodes;
         episodes.episodes = options.imitated_episodes;
         episodes.seed = seed;
@@ -193,9 +195,9 @@ ExitStatus train_ppo(TrainPpoOptions options, const solvers::Ranks& ranks) {
     ppo.stops = stops_of(ranks);
     ppo.memory_limit = options.problem.memory_limit;
     ppo.shortens_rollout = !ppo.names_rollout;
-    return run_training(
-        options, simulator,
-        solvers::ppo_trainee(simulator, ppo, ranks, demonstrate(simulator, options)), ranks);
+    return run_training(options, simulator,
+                        solvers::ppo_trainee(simulator, ppo, ranks, demonstrate(problem, options)),
+                        ranks);
 }
 
 Command ppo_command() {
@@ -288,7 +290,7 @@ Command train_command() {
     command.name = "train";
     command.summary = "Learn a policy";
     command.details = "'rddl help train ppo' lists all options.";
-    command.commands = {ppo_command(), cgp_command()};
+    command.commands = {ppo_command(), cgp_command(), train_plan_command()};
     return command;
 }
 

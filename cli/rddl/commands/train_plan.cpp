@@ -1,0 +1,123 @@
+// `rddl train plan`: a plan of the whole episode by gradients, written as a trace.
+#include "commands/commands.hpp"
+#include "commands/options.hpp"
+#include "formats/line_stream.hpp"
+#include "formats/trace.hpp"
+#include "rollouts/evaluation.hpp"
+#include "rollouts/rollouts.hpp"
+#include "solvers/batches/batch.hpp"
+#include "support/failure.hpp"
+#include "support/program.hpp"
+#include "terminal/interrupt.hpp"
+
+#include <fmt/format.h>
+
+#include <memory>
+#include <optional>
+
+namespace rddlc::cli {
+
+namespace {
+
+struct TrainPlanOptions {
+    ProblemArguments problem;
+    LoadOptions load;
+    std::string out;
+    double seconds = 10;
+    std::optional<std::int64_t> iterations;
+    std::optional<std::int64_t> horizon;
+    std::int64_t episodes = 100;
+    std::uint64_t seed = 0;
+};
+
+// The planner that searches once, and plays what it has found.
+std::string planner_of(const TrainPlanOptions& options, std::int64_t horizon) {
+    const std::string budget = options.iterations
+                                   ? fmt::format("iterations={}", *options.iterations)
+                                   : fmt::format("seconds={}", options.seconds);
+    return fmt::format("plan:gradient,{},horizon={},replan={}", budget, horizon, horizon);
+}
+
+void report(const rddl_simulator& simulator, const TrainPlanOptions& options,
+            const solvers::EpisodeOptions& given) {
+    solvers::EpisodeOptions episodes = given;
+    episodes.episodes = simulator.problem->stochastic ? options.episodes : 1;
+    for (const std::string& policy : {std::string("noop"), options.out}) {
+        if (is_interrupted()) return;
+        const Evaluation found = evaluate(simulator, policy, episodes, false, true);
+        print("{:<30} {:>14.6g}\n", policy, found.summary.undiscounted_return.mean);
+    }
+}
+
+ExitStatus train_plan(const TrainPlanOptions& options) {
+    if (options.out.empty())
+        throw Failure("a plan needs a file: --out plan.jsonl", {}, usage_error);
+    const LoadedProblem problem = load_problem(options.problem.files(), options.load);
+    const rddl_simulator& simulator = *problem.simulator;
+    const std::int64_t horizon = options.horizon.value_or(simulator.problem->horizon);
+    if (horizon <= 0)
+        throw Failure("a plan has an end, and this problem has no horizon", "give one: --horizon N",
+                      usage_error);
+    RolloutOptions rollouts;
+    rollouts.policy = Policy::Planner;
+    rollouts.planner = planner_of(options, horizon);
+    rollouts.planning.derivatives = problem.derivatives;
+    rollouts.planning.cheat = true;  // a plan looks at no state but the first
+    rollouts.seed = options.seed;
+    rollouts.horizon = options.horizon;
+    rollouts.memory_limit = options.problem.memory_limit;
+    const TraceHeader header{.problem = problem.files.name,
+                             .files = problem.files.all(),
+                             .policy = rollouts.planner,
+                             .engine = std::string(name_of(engine_of(options.load))),
+                             .seed = options.seed,
+                             .episodes = 1,
+                             .horizon = horizon};
+    LineWriter trace(options.out, problem.used);
+    trace.write(trace_header_line(header, *simulator.problem));
+    run_episodes(
+        simulator, rollouts, [&](const std::string& lines) { trace.write(lines); }, false);
+    if (is_interrupted()) return interrupted_status();
+    trace.finish();
+    print("mean returns{}:\n", simulator.problem->stochastic
+                                   ? fmt::format(" of {} episodes", options.episodes)
+                                   : std::string());
+    report(simulator, options, rollouts);
+    return is_interrupted() ? interrupted_status() : success;
+}
+
+}  // namespace
+
+Command train_plan_command() {
+    const auto options = std::make_shared<TrainPlanOptions>();
+    Command command;
+    command.name = "plan";
+    command.summary = "Find a plan of actions by gradients";
+    command.details =
+        "One plan for the whole episode, whatever happens, that goes up the exact gradient of its\n"
+        "return over several draws of luck (docs/planning.md). It is written as a trace, which\n"
+        "--policy plan.jsonl plays. plan:gradient searches again at each step instead.\n\n"
+        "Examples:\n"
+        "  rddl train plan HVAC_ippc2023 1 --out plan.jsonl --seconds 30\n"
+        "  rddl evaluate HVAC_ippc2023 1 --policy plan.jsonl";
+    add_problem_arguments(command, options->problem);
+    add_text_option(command, "--out", "FILE.jsonl", "Where the plan is written", options->out);
+    add_number_option(command, "--seconds", "S", "Time of the search (10)", options->seconds, 0.0,
+                      1e6);
+    add_number_option<std::int64_t>(
+        command, "--iterations", "N",
+        "Gradients of each plan, in place of a time: the same bytes each time", options->iterations,
+        1, 1'000'000'000);
+    add_horizon_option(command, options->horizon, "Steps of the plan (the instance's)");
+    add_number_option<std::int64_t>(command, "--episodes", "N",
+                                    "Episodes in which the plan is evaluated (100)",
+                                    options->episodes, 1, 1'000'000);
+    add_seed_option(command, options->seed, "Seed of all random numbers (0)");
+    add_engine_options(command, options->load);
+    command.run = [options] {
+        return train_plan(*options);
+    };
+    return command;
+}
+
+}  // namespace rddlc::cli

@@ -1,0 +1,160 @@
+#include "planners/gradient/action_parameters.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace rddlc::planners {
+
+namespace {
+
+constexpr double bool_slope = 4;   // of the sigmoid
+constexpr double most_bool = 1.5;  // a probability of 0.0025
+constexpr double first_bool = 0.5;
+// A real beside its only bound is softplus(u) away from it, which hardly has a slope further down.
+constexpr double least_beside_bound = -6, first_beside_bound = -2;
+
+double sigmoid(double x) {
+    return 1 / (1 + std::exp(-x));
+}
+
+bool is_bounded(const solvers::RealHead& head) {
+    return head.range == solvers::RealHead::Range::Bounded ||
+           head.range == solvers::RealHead::Range::Squashed;
+}
+
+bool has_one_bound(const solvers::RealHead& head) {
+    return head.range == solvers::RealHead::Range::AboveLower ||
+           head.range == solvers::RealHead::Range::BelowUpper;
+}
+
+}  // namespace
+
+ActionParameters::ActionParameters(const rddl_simulator& simulator,
+                                   const solvers::ActionSpace& space)
+    : default_values_(space.defaults), most_changes_(simulator.problem->max_nondef_actions) {
+    const std::vector<rddl_column> columns = solvers::action_columns(simulator);
+    kinds_.resize(columns.size(), Kind::Fixed);
+    heads_.resize(columns.size());
+    defaults_.resize(columns.size());
+    std::vector<float> numbers(space.reals.size());
+    std::vector<std::int32_t> indices(static_cast<std::size_t>(space.index_count()));
+    solvers::read_action(space, space.defaults.data(), numbers.data(), indices.data());
+    for (std::size_t r = 0; r < space.reals.size(); ++r) {
+        const auto column = static_cast<std::size_t>(space.reals[r].column);
+        kinds_[column] = space.reals[r].rounds ? Kind::Int : Kind::Real;
+        heads_[column] = space.reals[r];
+        heads_[column].rounds = false;
+        defaults_[column] = static_cast<double>(numbers[r]);
+        if (has_one_bound(heads_[column]))
+            defaults_[column] = std::max(defaults_[column], first_beside_bound);
+    }
+    for (std::size_t i = 0; i < columns.size(); ++i) {
+        const rddl_column& column = columns[i];
+        if (kinds_[i] != Kind::Fixed || column.object_count > 0) continue;
+        if (column.scalar == RDDL_BOOL) {
+            kinds_[i] = Kind::Bool;
+            defaults_[i] = default_values_[i] > 0.5f ? first_bool : -first_bool;
+        } else if (column.upper > column.lower && std::isfinite(column.upper - column.lower)) {
+            kinds_[i] = Kind::Int;
+            heads_[i].range = solvers::RealHead::Range::Bounded;
+            heads_[i].lower = column.lower;
+            heads_[i].upper = column.upper;
+            const double middle = (column.lower + column.upper) / 2;
+            defaults_[i] = (static_cast<double>(default_values_[i]) - middle) /
+                           ((column.upper - column.lower) / 2);
+        }
+    }
+    project(defaults_);
+}
+
+bool ActionParameters::any_moves() const {
+    return std::ranges::any_of(kinds_, [](Kind kind) { return kind != Kind::Fixed; });
+}
+
+double ActionParameters::value(std::size_t i, double parameter) const {
+    switch (kinds_[i]) {
+        case Kind::Bool:
+            return sigmoid(bool_slope * parameter);
+        case Kind::Real:
+        case Kind::Int:
+            return solvers::real_value(heads_[i], parameter);
+        case Kind::Fixed:
+            break;
+    }
+    return static_cast<double>(default_values_[i]);
+}
+
+double ActionParameters::slope(std::size_t i, double parameter) const {
+    if (kinds_[i] == Kind::Fixed) return 0;
+    if (kinds_[i] == Kind::Bool) {
+        const double p = value(i, parameter);
+        return bool_slope * p * (1 - p);
+    }
+    if (is_bounded(heads_[i])) return (heads_[i].upper - heads_[i].lower) / 2;
+    constexpr double width = 1e-3;  // they are linear, or softplus
+    return (value(i, parameter + width) - value(i, parameter - width)) / (2 * width);
+}
+
+void ActionParameters::project(std::span<double> parameters) const {
+    for (std::size_t i = 0; i < parameters.size(); ++i) {
+        if (kinds_[i] == Kind::Bool)
+            parameters[i] = std::clamp(parameters[i], -most_bool, most_bool);
+        else if (kinds_[i] != Kind::Fixed && is_bounded(heads_[i]))
+            parameters[i] = std::clamp(parameters[i], -1.0, 1.0);
+        else if (kinds_[i] != Kind::Fixed && has_one_bound(heads_[i]))
+            parameters[i] = std::max(parameters[i], least_beside_bound);
+    }
+    limit_changes(parameters);
+}
+
+double ActionParameters::chance_to_differ(std::size_t i, double parameter) const {
+    const double p = value(i, parameter);
+    return default_values_[i] > 0.5f ? 1 - p : p;
+}
+
+void ActionParameters::limit_changes(std::span<double> parameters) const {
+    if (most_changes_ < 0) return;
+    constexpr double least = 0.0025;  // of most_bool
+    const auto limit = std::max(static_cast<double>(most_changes_), least);
+    for (int round = 0; round < 20; ++round) {
+        double sum = 0, movable = 0;
+        for (std::size_t i = 0; i < parameters.size(); ++i) {
+            if (kinds_[i] != Kind::Bool) continue;
+            const double chance = chance_to_differ(i, parameters[i]);
+            sum += chance;
+            movable += chance > least;
+        }
+        if (sum <= limit + 1e-6 || movable == 0) return;
+        for (std::size_t i = 0; i < parameters.size(); ++i) {
+            if (kinds_[i] != Kind::Bool) continue;
+            const double chance = chance_to_differ(i, parameters[i]);
+            if (chance <= least) continue;
+            const double less = std::max(chance - (sum - limit) / movable, least);
+            const double parameter = std::log(less / (1 - less)) / bool_slope;
+            parameters[i] = default_values_[i] > 0.5f ? -parameter : parameter;
+        }
+    }
+}
+
+void ActionParameters::write(std::span<const double> parameters, double threshold,
+                             float* values) const {
+    std::ranges::copy(default_values_, values);
+    std::vector<std::size_t> changed;
+    for (std::size_t i = 0; i < parameters.size(); ++i) {
+        if (kinds_[i] == Kind::Bool) {
+            if (chance_to_differ(i, parameters[i]) > threshold) changed.push_back(i);
+        } else if (kinds_[i] != Kind::Fixed) {
+            const double number = value(i, parameters[i]);
+            values[i] =
+                static_cast<float>(kinds_[i] == Kind::Int ? std::nearbyint(number) : number);
+        }
+    }
+    std::ranges::stable_sort(changed, [&](std::size_t a, std::size_t b) {
+        return chance_to_differ(a, parameters[a]) > chance_to_differ(b, parameters[b]);
+    });
+    if (most_changes_ >= 0 && std::ssize(changed) > most_changes_)
+        changed.resize(static_cast<std::size_t>(most_changes_));
+    for (const std::size_t i : changed) values[i] = values[i] > 0.5f ? 0.0f : 1.0f;
+}
+
+}  // namespace rddlc::planners

@@ -1,0 +1,54 @@
+// Numbers that a gradient may move, and the values of an action that they mean.
+//
+// A real between two bounds has the parameter -1 at the lower one and 1 at the upper one. A bool is
+// true with probability sigmoid(4 u), and takes part in gradients as that probability. Ints are
+// between bounds as reals are, and rounded in the end. Objects stay at their defaults.
+#pragma once
+
+#include "solvers/spaces/actions.hpp"
+
+#include <rddl/simulator.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace rddlc::planners {
+
+class ActionParameters {
+  public:
+    ActionParameters(const rddl_simulator& simulator, const solvers::ActionSpace& space);
+
+    // One for each value of an action, in the order of its columns.
+    std::size_t count() const { return kinds_.size(); }
+    bool can_move(std::size_t i) const { return kinds_[i] != Kind::Fixed; }
+    bool any_moves() const;
+    bool is_bool(std::size_t i) const { return kinds_[i] == Kind::Bool; }
+    // The parameters of the default action, with bools a little toward their other value.
+    const std::vector<double>& defaults() const { return defaults_; }
+
+    // The value that takes part in gradients, and its derivative by the parameter.
+    double value(std::size_t i, double parameter) const;
+    double slope(std::size_t i, double parameter) const;
+    // Moves the parameters of an action to where bounds hold, and where bools are expected to
+    // differ from their defaults at most as often as max-nondef-actions allows (the projection of
+    // SOGBOFA: Cui and Khardon, 2016).
+    void project(std::span<double> parameters) const;
+    // Values of the action; bools differ from their default if they are likelier to than this.
+    void write(std::span<const double> parameters, double threshold, float* values) const;
+
+  private:
+    enum class Kind { Fixed, Real, Int, Bool };
+
+    double chance_to_differ(std::size_t i, double parameter) const;
+    void limit_changes(std::span<double> parameters) const;
+
+    std::vector<Kind> kinds_;
+    std::vector<solvers::RealHead> heads_;  // of Real and Int
+    std::vector<double> defaults_;
+    std::vector<float> default_values_;
+    std::int64_t most_changes_;  // -1: any number
+};
+
+}  // namespace rddlc::planners

@@ -1,0 +1,138 @@
+#include "planners/gradient/ascent.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace rddlc::planners {
+
+namespace {
+
+constexpr std::size_t lanes = solvers::derivative_lanes;
+
+}  // namespace
+
+Ascent::Ascent(const ActionParameters& actions, solvers::StepDerivatives& derivatives,
+               std::size_t scenarios, double discount)
+    : actions_(actions),
+      derivatives_(derivatives),
+      scenarios_(scenarios),
+      discount_(discount),
+      action_(derivatives.action_count()),
+      adjoint_(derivatives.state_count()),
+      next_adjoint_(derivatives.state_count()),
+      action_adjoint_(derivatives.action_count()) {}
+
+bool Ascent::improve(std::span<AscendingPlan* const> plans, std::span<const double> state,
+                     std::int64_t steps_made, std::int64_t horizon,
+                     std::span<const std::uint64_t> seeds, double rate, std::int64_t iteration,
+                     const solvers::Stops* stops) {
+    const std::size_t row = static_cast<std::size_t>(horizon) * actions_.count();
+    gradients_.assign(plans.size() * row, 0.0);
+    for (AscendingPlan* const plan : plans) plan->value = 0;
+    const std::size_t all = plans.size() * scenarios_;
+    for (std::size_t first = 0; first < all; first += lanes) {
+        if (solvers::is_stopped(stops)) return false;
+        begin_group(first, std::min(lanes, all - first), seeds);
+        const std::size_t steps = play(plans, state, steps_made, static_cast<std::size_t>(horizon));
+        for (std::size_t k = 0; k < group_size_; ++k)
+            plans[(first + k) / scenarios_]->value += returns_[k] / static_cast<double>(scenarios_);
+        pull_back(plans, steps_made, steps);
+    }
+    for (std::size_t p = 0; p < plans.size(); ++p)
+        move(*plans[p], std::span(gradients_).subspan(p * row, row), rate, iteration);
+    return true;
+}
+
+void Ascent::begin_group(std::size_t first, std::size_t lane_count,
+                         std::span<const std::uint64_t> seeds) {
+    group_first_ = first;
+    group_size_ = lane_count;
+    std::array<std::uint64_t, lanes> lane_seeds{};
+    for (std::size_t k = 0; k < lane_count; ++k) lane_seeds[k] = seeds[(first + k) % scenarios_];
+    derivatives_.set_seeds(lane_seeds);
+}
+
+void Ascent::write_actions(std::span<AscendingPlan* const> plans, std::size_t step) {
+    for (std::size_t k = 0; k < lanes; ++k) {
+        const std::size_t lane = group_first_ + std::min(k, group_size_ - 1);
+        const double* const row =
+            plans[lane / scenarios_]->parameters.data() + step * actions_.count();
+        for (std::size_t i = 0; i < actions_.count(); ++i)
+            action_[i][k] = actions_.value(i, row[i]);
+    }
+}
+
+// Returns the steps that are made, until the last episode ends.
+std::size_t Ascent::play(std::span<AscendingPlan* const> plans, std::span<const double> state,
+                         std::int64_t steps_made, std::size_t horizon) {
+    const std::size_t count = state.size();
+    states_.resize((horizon + 1) * count);
+    alive_.assign(horizon, Lane{});
+    for (std::size_t i = 0; i < count; ++i) states_[i].fill(state[i]);
+    Lane alive{};
+    std::fill_n(alive.begin(), group_size_, 1.0);
+    returns_ = {};
+    double discount = 1;
+    for (std::size_t t = 0; t < horizon; ++t, discount *= discount_) {
+        write_actions(plans, t);
+        const std::span now = std::span(states_).subspan(t * count, count);
+        derivatives_.step(steps_made + static_cast<std::int64_t>(t), now, action_);
+        derivatives_.read_next(std::span(states_).subspan((t + 1) * count, count));
+        const Lane reward = derivatives_.reward();
+        bool any = false;
+        for (std::size_t k = 0; k < lanes; ++k) {
+            if (derivatives_.has_failed(k) || !std::isfinite(reward[k])) alive[k] = 0;
+            alive_[t][k] = alive[k] * discount;
+            if (alive[k] != 0) returns_[k] += discount * reward[k];
+            if (derivatives_.is_over(k)) alive[k] = 0;
+            any = any || alive[k] != 0;
+        }
+        if (!any) return t + 1;
+    }
+    return horizon;
+}
+
+// Values of each step are computed again, so that memory holds its states alone.
+void Ascent::pull_back(std::span<AscendingPlan* const> plans, std::int64_t steps_made,
+                       std::size_t steps) {
+    const std::size_t count = derivatives_.state_count();
+    const std::size_t row = gradients_.size() / plans.size();
+    std::ranges::fill(next_adjoint_, Lane{});
+    for (std::size_t t = steps; t-- > 0;) {
+        write_actions(plans, t);
+        derivatives_.step(steps_made + static_cast<std::int64_t>(t),
+                          std::span(states_).subspan(t * count, count), action_);
+        derivatives_.pull_back(next_adjoint_, alive_[t], adjoint_, action_adjoint_);
+        for (std::size_t k = 0; k < group_size_; ++k) {
+            const std::size_t plan = (group_first_ + k) / scenarios_;
+            double* const gradient = gradients_.data() + plan * row + t * actions_.count();
+            const double* const parameters = plans[plan]->parameters.data() + t * actions_.count();
+            for (std::size_t i = 0; i < actions_.count(); ++i)
+                gradient[i] += action_adjoint_[i][k] * actions_.slope(i, parameters[i]);
+            // An episode that was over before has no part in what comes before.
+            if (alive_[t][k] == 0)
+                for (Lane& adjoint : adjoint_) adjoint[k] = 0;
+        }
+        next_adjoint_.swap(adjoint_);
+    }
+}
+
+void Ascent::move(AscendingPlan& plan, std::span<const double> gradient, double rate,
+                  std::int64_t iteration) const {
+    constexpr double mean_decay = 0.9, square_decay = 0.99;
+    const auto n = static_cast<double>(iteration + 1);
+    const double mean_scale = 1 - std::pow(mean_decay, n);
+    const double square_scale = 1 - std::pow(square_decay, n);
+    for (std::size_t j = 0; j < gradient.size(); ++j) {
+        if (!std::isfinite(gradient[j])) continue;
+        plan.mean[j] += (1 - mean_decay) * (gradient[j] - plan.mean[j]);
+        plan.square[j] += (1 - square_decay) * (gradient[j] * gradient[j] - plan.square[j]);
+        plan.parameters[j] +=
+            rate * (plan.mean[j] / mean_scale) / (std::sqrt(plan.square[j] / square_scale) + 1e-12);
+    }
+    for (std::size_t begin = 0; begin < gradient.size(); begin += actions_.count())
+        actions_.project(std::span(plan.parameters).subspan(begin, actions_.count()));
+}
+
+}  // namespace rddlc::planners

@@ -1,0 +1,106 @@
+#include "engines/step_derivatives.hpp"
+#include "planners/gradient/action_parameters.hpp"
+#include "planning.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+
+namespace rddlc::planners {
+namespace {
+
+namespace fs = std::filesystem;
+
+solvers::DerivativesSource derivatives_in(const fs::path& folder) {
+    workbench::ProblemFiles files;
+    files.name = folder.string();
+    files.domain = folder / "domain.rddl";
+    files.instance = folder / "instance.rddl";
+    return workbench::derivatives_of(files, {});
+}
+
+Played run_gradient(const rddl_simulator& simulator, const fs::path& folder,
+                    const std::string& options, std::int64_t episodes = 1, int threads = 1) {
+    return run(simulator, "plan:gradient," + options, episodes, threads, 0, derivatives_in(folder));
+}
+
+TEST(Gradient, FindsTheOptimumOfAMixedProblem) {
+    const Played plan = run_gradient(target(), PROBLEMS "/target", "iterations=200");
+    EXPECT_NEAR(plan.mean(), -0.116, 2e-3);
+    double move = 0;
+    std::memcpy(&move, chosen_action(plan.thought(0, 0)), sizeof move);
+    EXPECT_NEAR(move, 0.36, 0.03);
+    EXPECT_EQ(plan.thought(0, 0).depth, 2);
+    EXPECT_EQ(plan.thought(0, 0).iterations, 200);
+}
+
+// A gradient of each plan is worth more than as many samples.
+TEST(Gradient, IsBetterThanNoop) {
+    const double noop = run(reservoir(), "plan:cem,steps=1").mean();
+    const Played plan = run_gradient(reservoir(), EXAMPLES "/reservoir", "iterations=5,horizon=10");
+    EXPECT_GT(plan.mean(), noop);
+    EXPECT_EQ(plan.summary.illegal_actions, 0);
+}
+
+TEST(Gradient, SameIterationsGiveTheSameActionsOnAnyNumberOfThreads) {
+    const auto options = "iterations=3,horizon=8";
+    const Played one = run_gradient(network(), EXAMPLES "/network", options, 3, 1);
+    const Played two = run_gradient(network(), EXAMPLES "/network", options, 3, 2);
+    EXPECT_EQ(one.returns(), two.returns());
+    for (const auto& [place, explanation] : one.explanation)
+        EXPECT_EQ(explanation.candidates.at(0).action,
+                  two.explanation.at(place).candidates.at(0).action);
+}
+
+TEST(Gradient, ActsWithinAnyBudgetAndLegally) {
+    const std::pair<const rddl_simulator*, const char*> problems[] = {
+        {&network(), "/network"}, {&reservoir(), "/reservoir"}, {&car(), "/mountain_car"}};
+    for (const auto& [simulator, folder] : problems)
+        for (const std::string budget : {"steps=1", "steps=100", "seconds=0", "steps=3000"}) {
+            const Played plan = run_gradient(*simulator, std::string(EXAMPLES) + folder, budget);
+            EXPECT_EQ(plan.summary.illegal_actions, 0) << folder << budget;
+            EXPECT_EQ(plan.summary.episodes, 1) << folder << budget;
+            if (!budget.starts_with("steps=")) continue;
+            for (const auto& [place, explanation] : plan.explanation)
+                EXPECT_LE(explanation.steps, std::stoll(budget.substr(6))) << folder << budget;
+        }
+}
+
+// A straight-line plan: one search, whose plan is played to the end.
+TEST(Gradient, MakesStepsByOnePlan) {
+    const Played plan =
+        run_gradient(target(), PROBLEMS "/target", "iterations=200,replan=2,horizon=2");
+    EXPECT_EQ(plan.thought(0, 0).iterations, 200);
+    EXPECT_EQ(plan.thought(0, 1).iterations, 0);
+    EXPECT_EQ(plan.thought(0, 1).note, "goes on by the plan of an earlier step");
+    EXPECT_NEAR(plan.mean(), -0.116, 2e-3);
+}
+
+TEST(Gradient, SaysWhatItNeeds) {
+    try {
+        run(target(), "plan:gradient");
+        FAIL() << "it found derivatives";
+    } catch (const Failure& failure) {
+        EXPECT_EQ(std::string(failure.what()),
+                  "plan:gradient needs the RDDL text of the problem, from which derivatives are "
+                  "made");
+    }
+}
+
+// Bools share what max-nondef-actions allows.
+TEST(ActionParameters, AreProjected) {
+    const ActionParameters parameters(network(), solvers::action_space(network()));
+    std::vector<double> all(parameters.count(), 1.0);
+    parameters.project(all);
+    double changes = 0;
+    for (std::size_t i = 0; i < all.size(); ++i) changes += parameters.value(i, all[i]);
+    EXPECT_LE(changes, static_cast<double>(network().problem->max_nondef_actions) + 1e-3);
+    std::vector<float> values(all.size());
+    parameters.write(all, 0.0, values.data());
+    EXPECT_EQ(std::ranges::count(values, 1.0f), network().problem->max_nondef_actions);
+}
+
+}  // namespace
+}  // namespace rddlc::planners

@@ -1,0 +1,14 @@
+// Exact derivatives of a problem's steps, from its files.
+#pragma once
+
+#include "engines/load_simulator.hpp"
+#include "problems/problem_lookup.hpp"
+#include "solvers/gradients/step_derivatives.hpp"
+
+namespace rddlc::workbench {
+
+// The source compiles the problem when it is called first, and keeps what it has found. It throws a
+// Failure where the problem has no derivatives.
+solvers::DerivativesSource derivatives_of(const ProblemFiles& files, const LoadOptions& options);
+
+}  // namespace rddlc::workbench
