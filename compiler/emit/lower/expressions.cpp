@@ -253,14 +253,20 @@ tree::Expressions Expressions::place(const ir::Place& place) {
 }
 
 std::string Expressions::binder_function(const ir::Node& binder) {
-    if (const auto* reduce = std::get_if<ir::Reduce>(&binder.form))
-        return "rddl::" + function_of(reduce->op) + "<" + type(binder.type) + ">";
+    if (const auto* reduce = std::get_if<ir::Reduce>(&binder.form)) {
+        const std::string function = "rddl::" + function_of(reduce->op);
+        return several_ ? function : function + "<" + type(binder.type) + ">";
+    }
     const bool normalises = std::get<ir::DiscreteOver>(binder.form).normalise;
     return normalises ? "rddl::sample::unnormalised_discrete_over" : "rddl::sample::discrete_over";
 }
 
 tree::Expressions Expressions::binder_arguments(const ir::Node& binder) {
-    if (const auto* reduce = std::get_if<ir::Reduce>(&binder.form)) return {range(*reduce)};
+    if (const auto* reduce = std::get_if<ir::Reduce>(&binder.form)) {
+        if (!several_) return {range(*reduce)};
+        uses_.context = true;
+        return {word(several_->context), range(*reduce)};
+    }
     const auto& discrete = std::get<ir::DiscreteOver>(binder.form);
     tree::Expressions arguments = place(discrete.place);
     arguments.push_back(word(unit_.size_of(unit_.program[discrete.variable])));
@@ -383,10 +389,18 @@ Expression Expressions::lower(const ir::Node&, const ir::Load& load) {
     };
     if (several_ && ir::begins_with(unit_.program, load.indices, several_->nest))
         return at("rddl::at", several_->nest.variables.size());
-    const bool is_same_for_all = std::ranges::all_of(indices, [&](ir::NodeId id) {
-        return !several_ || ir::is_same_for_all(unit_.properties_of(id), several_->nest);
-    });
-    if (!is_same_for_all) return at("rddl::at_own", 0);
+    const auto are_same_for_all = [&](std::span<const ir::NodeId> ids) {
+        return std::ranges::all_of(ids, [&](ir::NodeId id) {
+            return !several_ || ir::is_same_for_all(unit_.properties_of(id), several_->nest);
+        });
+    };
+    if (several_ && ir::ends_with(unit_.program, load.indices, several_->nest)) {
+        const auto part = indices.first(indices.size() - several_->nest.variables.size());
+        if (are_same_for_all(part))
+            return tree::call("rddl::at",
+                              {elements(std::move(table), part), word(several_->objects)});
+    }
+    if (!are_same_for_all(indices)) return at("rddl::at_own", 0);
     const auto next =
         std::ranges::find_if(indices, [&](ir::NodeId id) { return !unit_.is_uniform(id); });
     const auto uniform = static_cast<std::size_t>(next - indices.begin());
