@@ -7,6 +7,7 @@
 #include "ir/reduction_nest.hpp"
 #include "passes/aggregations/fuse_interm_fluents.hpp"
 #include "passes/aggregations/make_aggregations_sparse.hpp"
+#include "passes/lanes/choose_evaluation.hpp"
 #include "passes/sharing/remove_unused_buffers.hpp"
 
 #include <algorithm>
@@ -156,7 +157,8 @@ ir::Program tidied(ir::Program program) {
     passes::Report unused;
     program = passes::fuse_interm_fluents(std::move(program), unused);
     program = passes::make_aggregations_sparse(std::move(program), unused);
-    return passes::remove_unused_buffers(std::move(program), unused);
+    program = passes::remove_unused_buffers(std::move(program), unused);
+    return passes::choose_evaluation(std::move(program), unused);
 }
 
 }  // namespace

@@ -295,7 +295,7 @@ ir::NodeId Lowering::product_unless_zero(ir::NodeId first, ir::NodeId other, boo
     if (is_large && may_be_named(first)) {
         first = named(first);
     } else if (is_large && select) {
-        const auto [condition, then_value, else_value] = *select;
+        const auto [condition, then_value, else_value, evaluated] = *select;
         if (condition == test(then_value)) {
             const ir::NodeId rest = product_unless_zero(else_value, other, right_first);
             return builder_.select(condition, then_value, rest);

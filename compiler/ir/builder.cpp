@@ -61,9 +61,13 @@ class Key {
     void add(const Load& form) {
         add(form.buffer);
         add(form.indices);
+        add(static_cast<std::uint64_t>(form.gather));
     }
     void add(const Local& form) { add(form.local); }
-    void add(const Convert& form) { add(form.operand); }
+    void add(const Convert& form) {
+        add(form.operand);
+        add(std::uint64_t{form.skips_int});
+    }
     void add(const Apply& form) {
         add(static_cast<std::uint64_t>(form.op));
         add(form.operands);
@@ -71,17 +75,20 @@ class Key {
     }
     void add(const Select& form) {
         add(std::vector{form.condition, form.then_value, form.else_value});
+        add(static_cast<std::uint64_t>(form.evaluated));
     }
     void add(const Reduce& form) {
         add(static_cast<std::uint64_t>(form.op));
         add(form.variable);
         add(form.body);
         if (form.bounds) add(std::vector{form.bounds->begin, form.bounds->end});
+        add(std::uint64_t{form.over_true});
     }
     void add(const Sample& form) {
         add(static_cast<std::uint64_t>(form.distribution));
         add(form.place);
         add(form.parameters);
+        add(std::uint64_t{form.is_valid});
     }
     void add(const Discrete& form) {
         add(std::uint64_t{form.normalise});
@@ -187,13 +194,13 @@ NodeId Builder::index(VariableId variable) {
     return intern({Scalar::Int, Index{variable}});
 }
 
-NodeId Builder::load(BufferId id, std::vector<NodeId> indices) {
+NodeId Builder::load(BufferId id, std::vector<NodeId> indices, Gather gather) {
     const Buffer& buffer = program_[id];
     if (buffer.storage == Storage::Constant) {
         const auto known = constants(program_, indices);
         if (known) return constant(buffer.values[row_major(buffer, *known)]);
     }
-    return intern({buffer.scalar, Load{id, std::move(indices)}});
+    return intern({buffer.scalar, Load{id, std::move(indices), gather}});
 }
 
 NodeId Builder::search(BufferId table, NodeId value) {
@@ -215,7 +222,7 @@ NodeId Builder::local(LocalId id, Scalar type) {
     return intern({type, Local{id}});
 }
 
-NodeId Builder::convert(NodeId operand, Scalar type) {
+NodeId Builder::convert(NodeId operand, Scalar type, bool skips_int) {
     const Node& node = program_[operand];
     if (node.type == type) return operand;
     if (const auto* form = std::get_if<Constant>(&node.form)) {
@@ -226,11 +233,12 @@ NodeId Builder::convert(NodeId operand, Scalar type) {
         return intern({type, Convert{inner->operand}});
     }
     if (const auto* choice = std::get_if<Select>(&node.form)) {
-        const auto [condition, then_value, else_value] = *choice;
+        const auto [condition, then_value, else_value, evaluated] = *choice;
         if (constants(program_, {then_value, else_value}))
-            return select(condition, convert(then_value, type), convert(else_value, type));
+            return select(condition, convert(then_value, type), convert(else_value, type),
+                          evaluated);
     }
-    return intern({type, Convert{operand}});
+    return intern({type, Convert{operand, skips_int}});
 }
 
 NodeId Builder::apply(Operator op, std::vector<NodeId> operands, std::optional<Place> place) {
@@ -242,15 +250,17 @@ NodeId Builder::apply(Operator op, std::vector<NodeId> operands, std::optional<P
     return intern({type, Apply{op, std::move(operands), place}});
 }
 
-NodeId Builder::select(NodeId condition, NodeId then_value, NodeId else_value) {
+NodeId Builder::select(NodeId condition, NodeId then_value, NodeId else_value,
+                       Evaluated evaluated) {
     if (const auto simpler = simplify_select(*this, condition, then_value, else_value)) {
         return *simpler;
     }
-    return intern({program_[then_value].type, Select{condition, then_value, else_value}});
+    return intern(
+        {program_[then_value].type, Select{condition, then_value, else_value, evaluated}});
 }
 
 NodeId Builder::reduce(Reduction op, VariableId variable, NodeId body,
-                       std::optional<Bounds> bounds) {
+                       std::optional<Bounds> bounds, bool over_true) {
     const Scalar type = result_type(op, program_[body].type);
     const std::int64_t size = program_[variable].size;
     if (op == Reduction::Sum) body = without_zero(program_, body);  // it begins with 0.0
@@ -266,7 +276,7 @@ NodeId Builder::reduce(Reduction op, VariableId variable, NodeId body,
     if (size == 1 && !is_argument(op)) return aggregated(op, body);
     if (fixed && is_argument(op) && is_droppable(properties(body)))
         return constant(std::int64_t{0});
-    return intern({type, Reduce{op, variable, body, {}}});
+    return intern({type, Reduce{op, variable, body, {}, over_true}});
 }
 
 NodeId Builder::aggregated(Reduction op, NodeId terms) {
@@ -275,8 +285,8 @@ NodeId Builder::aggregated(Reduction op, NodeId terms) {
 }
 
 NodeId Builder::sample(Scalar type, Distribution distribution, Place place,
-                       std::vector<NodeId> parameters) {
-    return intern({type, Sample{distribution, place, std::move(parameters)}});
+                       std::vector<NodeId> parameters, bool is_valid) {
+    return intern({type, Sample{distribution, place, std::move(parameters), is_valid}});
 }
 
 NodeId Builder::discrete(bool normalise, Place place, std::vector<NodeId> weights) {
@@ -299,19 +309,21 @@ NodeId Builder::rebuild(const Node& node) {
     return match(
         node.form, [&](const Constant& form) { return constant(form.value); },
         [&](const Index& form) { return index(form.variable); },
-        [&](const Load& form) { return load(form.buffer, form.indices); },
+        [&](const Load& form) { return load(form.buffer, form.indices, form.gather); },
         [&](const Search& form) { return search(form.table, form.value); },
         [&](const Bits& form) { return bits(form.buffer, form.first); },
         [&](const Element& form) { return element(form.buffer, form.place); },
         [&](const Local& form) { return local(form.local, node.type); },
-        [&](const Convert& form) { return convert(form.operand, node.type); },
+        [&](const Convert& form) { return convert(form.operand, node.type, form.skips_int); },
         [&](const Apply& form) { return apply(form.op, form.operands, form.place); },
         [&](const Select& form) {
-            return select(form.condition, form.then_value, form.else_value);
+            return select(form.condition, form.then_value, form.else_value, form.evaluated);
         },
-        [&](const Reduce& form) { return reduce(form.op, form.variable, form.body, form.bounds); },
+        [&](const Reduce& form) {
+            return reduce(form.op, form.variable, form.body, form.bounds, form.over_true);
+        },
         [&](const Sample& form) {
-            return sample(node.type, form.distribution, form.place, form.parameters);
+            return sample(node.type, form.distribution, form.place, form.parameters, form.is_valid);
         },
         [&](const Discrete& form) { return discrete(form.normalise, form.place, form.weights); },
         [&](const DiscreteOver& form) {

@@ -30,25 +30,26 @@ class Builder {
     NodeId constant(Value value);
     // 0 for a variable over one object.
     NodeId index(VariableId variable);
-    NodeId load(BufferId buffer, std::vector<NodeId> indices);
+    NodeId load(BufferId buffer, std::vector<NodeId> indices, Gather gather = Gather::None);
     NodeId search(BufferId table, NodeId value);
     // `buffer` is not a Constant.
     NodeId bits(BufferId buffer, std::int64_t first);
     // `buffer` is not a Constant.
     NodeId element(BufferId buffer, NodeId place);
     NodeId local(LocalId local, Scalar type);
-    NodeId convert(NodeId operand, Scalar type);
+    NodeId convert(NodeId operand, Scalar type, bool skips_int = false);
     // `place` for exactly the operators that may fault (vocabulary/vocabulary.hpp).
     NodeId apply(Operator op, std::vector<NodeId> operands, std::optional<Place> place = {});
-    NodeId select(NodeId condition, NodeId then_value, NodeId else_value);
+    NodeId select(NodeId condition, NodeId then_value, NodeId else_value,
+                  Evaluated evaluated = Evaluated::Branch);
     // Over an empty variable only for reductions that have a value there.
     NodeId reduce(Reduction op, VariableId variable, NodeId body,
-                  std::optional<Bounds> bounds = {});
+                  std::optional<Bounds> bounds = {}, bool over_true = false);
     // An aggregation whose terms are combined already, such as one over a single object: a sum of
     // reals begins with 0.0, and so is never -0.0.
     NodeId aggregated(Reduction op, NodeId terms);
     NodeId sample(Scalar type, Distribution distribution, Place place,
-                  std::vector<NodeId> parameters);
+                  std::vector<NodeId> parameters, bool is_valid = false);
     NodeId discrete(bool normalise, Place place, std::vector<NodeId> weights);
     NodeId discrete_over(bool normalise, Place place, VariableId variable, NodeId weight);
     NodeId interval(Place place, BufferId table, std::vector<NodeId> row);

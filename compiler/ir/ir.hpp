@@ -122,9 +122,19 @@ struct Index {  // the current value of a loop index; Int
     VariableId variable;
     bool operator==(const Index&) const = default;
 };
+// How a loop over several objects at once (Loop) reads the elements of its objects. None: there is
+// no such loop, or all of them read the same element.
+enum class Gather : std::uint8_t {
+    None,
+    Adjacent,  // the first indices are the variables of the loop: elements side by side
+    InRow,     // the last ones are, in a row that is the same for all: elements side by side
+    Rows,      // of a constant table: each object, or its kind, has a row, and an index into it
+    Own,       // each object has indices of its own
+};
 struct Load {
     BufferId buffer;
     std::vector<NodeId> indices;  // Int, one per dimension, in range by construction
+    Gather gather = Gather::None;
     bool operator==(const Load&) const = default;
 };
 // How many entries of a sorted constant table are at most the value; 0 for nan. Int.
@@ -153,6 +163,8 @@ struct Local {  // the value of an enclosing Let
 // Bool -> Int, Bool -> Real, Int -> Real; the target is Node::type.
 struct Convert {
     NodeId operand;
+    // The operand rounds a real, and the result is made from the rounded real, not from its int.
+    bool skips_int = false;
     bool operator==(const Convert&) const = default;
 };
 struct Apply {
@@ -161,9 +173,16 @@ struct Apply {
     std::optional<Place> place;  // exactly for operators that may fault
     bool operator==(const Apply&) const = default;
 };
+// What emitted code evaluates of a Select. Only what does no harm may be evaluated in vain.
+enum class Evaluated : std::uint8_t {
+    Branch,    // the branch that is taken; in packs those that a lane takes
+    PackBoth,  // the branch that is taken; in packs both
+    Both,
+};
 // Lazy: the branch not taken is not evaluated, so it cannot fault.
 struct Select {
     NodeId condition, then_value, else_value;
+    Evaluated evaluated = Evaluated::Branch;
     bool operator==(const Select&) const = default;
 };
 // The part [begin, end) of a variable's range. Both are Int, and the same in all lanes.
@@ -179,6 +198,9 @@ struct Reduce {
     VariableId variable;
     NodeId body;
     std::optional<Bounds> bounds;  // absent: all of the range
+    // Emitted code visits the true elements of a row of bools alone (row_of_bools.hpp), except
+    // for several objects at once.
+    bool over_true = false;
     bool operator==(const Reduce&) const = default;
 };
 // KronDelta and DiracDelta do not occur (they are their argument).
@@ -186,6 +208,7 @@ struct Sample {
     Distribution distribution;
     Place place;
     std::vector<NodeId> parameters;
+    bool is_valid = false;  // Bernoulli: its probability needs no check
     bool operator==(const Sample&) const = default;
 };
 struct Discrete {  // an index into `weights`; Int

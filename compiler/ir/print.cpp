@@ -313,7 +313,9 @@ class Printer {
         return program_[form.variable].name;
     }
     std::string text(const Load& form, Scalar, Precedence) const {
-        return element(form.buffer, form.indices);
+        constexpr std::string_view how[] = {"", "adjacent ", "in row ", "rows ", "own "};
+        return fmt::format("{}{}", how[static_cast<std::size_t>(form.gather)],
+                           element(form.buffer, form.indices));
     }
     std::string text(const Search& form, Scalar, Precedence) const {
         return fmt::format("search({}, {})", element(form.table, {}), expression(form.value));
@@ -328,7 +330,8 @@ class Printer {
         return fmt::format("%{}", form.local.index);
     }
     std::string text(const Convert& form, Scalar type, Precedence) const {
-        return fmt::format("{}({})", name_of(type), expression(form.operand));
+        return fmt::format("{}{}({})", form.skips_int ? "rounded " : "", name_of(type),
+                           expression(form.operand));
     }
 
     std::string text(const Apply& form, Scalar, Precedence context) const {
@@ -349,15 +352,19 @@ class Printer {
     }
 
     std::string text(const Select& form, Scalar, Precedence) const {
-        return fmt::format("select({})", list({form.condition, form.then_value, form.else_value}));
+        constexpr std::string_view how[] = {"", " both in packs", " both"};
+        return fmt::format("select{}({})", how[static_cast<std::size_t>(form.evaluated)],
+                           list({form.condition, form.then_value, form.else_value}));
     }
     std::string text(const Reduce& form, Scalar, Precedence) const {
-        return fmt::format("{}[{}]({})", rddlc::name_of(form.op),
+        return fmt::format("{}{}[{}]({})", rddlc::name_of(form.op),
+                           form.over_true ? " over true" : "",
                            binding(form.variable, form.bounds), expression(form.body));
     }
     std::string text(const Sample& form, Scalar, Precedence) const {
-        return fmt::format("sample {}{}({})", lower_case(rddlc::name_of(form.distribution)),
-                           at(form.place), list(form.parameters));
+        return fmt::format("sample {}{}{}({})", form.is_valid ? "valid " : "",
+                           lower_case(rddlc::name_of(form.distribution)), at(form.place),
+                           list(form.parameters));
     }
     std::string text(const Discrete& form, Scalar, Precedence) const {
         return fmt::format("sample {}{}({})", discrete_name(form.normalise), at(form.place),

@@ -4,6 +4,7 @@
 #include "ir/analysis.hpp"
 #include "ir/call.hpp"
 #include "ir/print.hpp"
+#include "ir/row_of_bools.hpp"
 #include "support/failure.hpp"
 #include "support/match.hpp"
 
@@ -257,10 +258,29 @@ class Verifier {
                buffer.storage != Storage::Constant && type(form.place) == Scalar::Int;
     }
     bool fits(const Local&, Scalar) const { return true; }  // compared with its Let
-    bool fits(const Convert& form, Scalar to) const { return type(form.operand) < to; }
+    bool fits(const Convert& form, Scalar to) const {
+        return type(form.operand) < to && (!form.skips_int || rounds(form.operand));
+    }
+    bool rounds(NodeId id) const {
+        const auto* apply = std::get_if<Apply>(&program_[id].form);
+        return apply && typing_of(apply->op) == Typing::Rounding;
+    }
     bool fits(const Select& form, Scalar result) const {
         return type(form.condition) == Scalar::Bool && type(form.then_value) == result &&
-               type(form.else_value) == result;
+               type(form.else_value) == result && may_be_evaluated_so(form);
+    }
+    bool may_be_evaluated_so(const Select& form) const {
+        const Properties& first = properties_[form.then_value.index];
+        const Properties& second = properties_[form.else_value.index];
+        switch (form.evaluated) {
+            case Evaluated::Branch:
+                return true;
+            case Evaluated::PackBoth:
+                return is_droppable(first) && is_droppable(second);
+            case Evaluated::Both:
+                return !is_lazy(program_, form, first, second);
+        }
+        return false;
     }
     bool fits(const Apply& form, Scalar result) const {
         if (form.operands.size() != static_cast<std::size_t>(arity_of(form.op))) return false;
@@ -300,6 +320,7 @@ class Verifier {
     bool fits(const Reduce& form, Scalar result) const {
         const Scalar body = type(form.body);
         if (form.bounds && !are_uniform_ints(*form.bounds)) return false;
+        if (form.over_true && !row_of_bools(program_, form)) return false;
         const bool empty = program_[form.variable].size == 0 || form.bounds;
         switch (form.op) {
             case Reduction::ForAll:
@@ -329,7 +350,8 @@ class Verifier {
             const Scalar taken = takes_int(form.distribution, i) ? Scalar::Int : Scalar::Real;
             if (type(form.parameters[i]) != taken) return false;
         }
-        return drawn(form.distribution) == result;
+        return drawn(form.distribution) == result &&
+               (!form.is_valid || form.distribution == Distribution::Bernoulli);
     }
     static std::optional<Scalar> drawn(Distribution distribution) {
         switch (drawn_by(distribution)) {

@@ -1,6 +1,5 @@
 #include "passes/pipeline.hpp"
 
-#include "passes/aggregations/compare_counts.hpp"
 #include "passes/aggregations/count_bits.hpp"
 #include "passes/aggregations/count_bools.hpp"
 #include "passes/aggregations/factor_aggregations.hpp"
@@ -23,12 +22,11 @@
 #include "passes/constants/fold_uniform_tables.hpp"
 #include "passes/constants/tabulate_constant_fluents.hpp"
 #include "passes/constants/tabulate_constants.hpp"
+#include "passes/lanes/choose_evaluation.hpp"
 #include "passes/lanes/evaluate_together.hpp"
 #include "passes/lanes/read_places.hpp"
-#include "passes/lanes/separate_aggregations.hpp"
 #include "passes/lanes/separate_counts.hpp"
 #include "passes/lanes/separate_draws.hpp"
-#include "passes/lanes/unroll_rows.hpp"
 #include "passes/sharing/remove_unused_buffers.hpp"
 #include "passes/sharing/share_across_definitions.hpp"
 #include "passes/sharing/share_subexpressions.hpp"
@@ -114,24 +112,18 @@ constexpr Pass in_order[] = {
      "sums of reals that only count, in steps of constants, count in ints",
      {"index_directly"},
      "sums of one term are gone"},
-    {"compare_counts",
-     Phase::Aggregations,
-     compare_counts,
-     "an exists or forall of terms that are also counted compares the count",
-     {"count_bools"},
-     "it has made the counts"},
     {"tabulate_thresholds",
      Phase::Aggregations,
      tabulate_thresholds,
      "draws from weights that tables and small ints decide search a table",
-     {"compare_counts"},
+     {"count_bools"},
      "the weights may depend on a count; merge_draws sees draws of one form"},
     {"merge_draws",
      Phase::Aggregations,
      merge_draws,
      "draws of two branches that have the same random numbers become one",
-     {"compare_counts"},
-     "a condition on a count may read the same as the probability"},
+     {"tabulate_thresholds"},
+     "draws that search a table have one form"},
     {"factor_aggregations",
      Phase::Aggregations,
      factor_aggregations,
@@ -155,7 +147,7 @@ constexpr Pass in_order[] = {
      Phase::Aggregations,
      tabulate_counts,
      "an expression of a count, or of another small int, becomes a table",
-     {"compare_counts", "make_aggregations_sparse"},
+     {"count_bools", "make_aggregations_sparse"},
      "a sparse row bounds its count, so that the table is small"},
     {"straighten_rows",
      Phase::Arithmetic,
@@ -214,23 +206,11 @@ constexpr Pass in_order[] = {
      "loops over bools leave their draws to tables, to run over words of bools",
      {"merge_draws", "read_places"},
      "a loop has to read all its bools in words before its draws are worth a table"},
-    {"separate_aggregations",
-     Phase::Lanes,
-     separate_aggregations,
-     "loops and sums leave aggregations and terms to tables, to run over several objects at once",
-     {"share_across_definitions"},
-     "an aggregation that is shared is a table already"},
-    {"unroll_rows",
-     Phase::Lanes,
-     unroll_rows,
-     "small tables of sums over rows are filled without loops",
-     {"separate_aggregations"},
-     "it has made such tables"},
     {"remove_unused_buffers",
      Phase::Sharing,
      remove_unused_buffers,
      "unread tables and interm-fluents are removed",
-     {"unroll_rows"},
+     {"separate_draws"},
      "all passes above leave tables unread"},
     {"share_subexpressions",
      Phase::Sharing,
@@ -251,6 +231,12 @@ constexpr Pass in_order[] = {
      "loops over several objects at once fill vector registers",
      {"share_subexpressions"},
      "the loops have their final bodies"},
+    {"choose_evaluation",
+     Phase::Lanes,
+     choose_evaluation,
+     "selects, draws, loads and roundings are evaluated in the cheapest way",
+     {"evaluate_together"},
+     "loops over several objects load as suits them all; no pass below looks at expressions"},
 };
 
 // Whether each pass stands behind those that it names.

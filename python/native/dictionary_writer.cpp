@@ -22,7 +22,7 @@ constexpr double most_exact = 9007199254740992.0;  // 2^53: up to here an int is
 
 // A number of Python or numpy that is not an array.
 std::optional<double> number_of(PyObject* given) {
-    if (PyFloat_Check(given)) return PyFloat_AS_DOUBLE(given);
+    if (PyFloat_Check(given)) return PyFloat_AsDouble(given);
     if (!PyLong_Check(given)) return std::nullopt;
     int overflow = 0;
     const long long whole = PyLong_AsLongLongAndOverflow(given, &overflow);

@@ -300,11 +300,11 @@ class RDDLEnv(ProblemProperties, gymnasium.Env[Any, Any]):
         self._batch.read_interm(0, record[0])
         return {name: view[0].copy() for name, view in lifted_views(record, fluents).items()}
 
-        """Returns (height, width, 3) uint8, a list of these since the last render() or reset(), a text,
-        or None, as `render_mode` says."""
+    # ---- pictures
 
     def render(self) -> Any:
-        """Returns (height, width, 3) uint8, a text, or None, as `render_mode` says."""
+        """Returns (height, width, 3) uint8, a list of these since the last render() or reset(), a text,
+        or None, as `render_mode` says."""
         if self._renderer is None or self._seed is None:
             return None
         if self.render_mode == "human":

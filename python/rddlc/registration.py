@@ -14,19 +14,20 @@ from . import _native
 from .arguments import keywords_of, refuse_unknown
 from .environment import RDDLEnv
 from .problems import Problem, problems
+from .repository_names import known_instances
 from .vector import RDDLVectorEnv
 
 ID = re.compile(r"[\w:.-]+")
 
 
 def register_environments() -> None:
-    """All problems that are there and not registered yet, for make and make_vec."""
-    for problem in problems():
-        for instance in problem.instances:
-            name = f"rddlc/{problem.name}-{instance}-v0"
-            if name in gymnasium.registry or not ID.fullmatch(f"{problem.name}-{instance}"):
-                continue
-            _register(name, {"domain": problem.name, "instance": instance})
+    """All problems that are there and not registered yet, for make and make_vec. Without rddlrepository those
+    that it has, so that make says what is missing."""
+    there = [(each.name, instance) for each in problems() for instance in each.instances]
+    for problem, instance in there or known_instances():
+        name = f"rddlc/{problem}-{instance}-v0"
+        if name not in gymnasium.registry and ID.fullmatch(f"{problem}-{instance}"):
+            _register(name, {"domain": problem, "instance": instance})
 
 
 def register(

@@ -6,6 +6,7 @@ import os
 import pickle
 import subprocess
 import sys
+import tempfile
 import unittest
 from pathlib import Path
 
@@ -13,6 +14,7 @@ import gymnasium
 from support import DOOR, FOLDER, GLASS, example
 
 import rddlc
+from rddlc.repository_names import known_instances
 
 CAR = FOLDER / "mountain_car"
 
@@ -52,6 +54,27 @@ class Registration(unittest.TestCase):
         env = gymnasium.make("Climb-v2", render_mode="rgb_array")
         env.reset(seed=1)
         self.assertEqual(env.render().shape, (400, 600, 3))
+
+
+    def test_ids_say_that_the_repository_is_missing(self) -> None:
+        with tempfile.TemporaryDirectory() as folder:
+            Path(folder, "sitecustomize.py").write_text(
+                "import importlib.util\nfind = importlib.util.find_spec\n"
+                "importlib.util.find_spec = lambda name, *rest: None if name == 'rddlrepository' else find(name, *rest)"
+            )
+            path = os.pathsep.join([folder, *sys.path])
+            made = subprocess.run(
+                [sys.executable, "-c", "import gymnasium, rddlc; gymnasium.make('rddlc/HVAC_ippc2023-1-v0')"],
+                env={k: v for k, v in os.environ.items() if k != "RDDL_REPOSITORY"} | {"PYTHONPATH": path},
+                capture_output=True,
+                text=True,
+            )
+        self.assertRegex(made.stderr, "rddlc.Error: .*HVAC_ippc2023.*pip install rddlrepository")
+
+    @unittest.skipUnless(rddlc.problems(), "rddlrepository is not installed")
+    def test_ids_are_known_without_the_repository(self) -> None:
+        there = {(each.name, instance) for each in rddlc.problems() for instance in each.instances}
+        self.assertEqual(set(known_instances()), there)
 
 
 class Pictures(unittest.TestCase):

@@ -16,6 +16,7 @@
 #include <rddl/values/moderate.hpp>
 #include <rddl/values/ops.hpp>
 #include <rddl/values/reductions.hpp>
+#include <rddl/values/true_elements.hpp>
 #include <rddl/values/search.hpp>
 #include <rddl/values/tables.hpp>
 

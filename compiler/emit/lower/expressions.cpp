@@ -6,10 +6,10 @@
 #include "emit/lower/operators.hpp"
 #include "emit/lower/tables.hpp"
 #include "ir/call.hpp"
+#include "ir/row_of_bools.hpp"
 #include "support/match.hpp"
 
 #include <algorithm>
-#include <array>
 #include <utility>
 
 namespace rddlc::cpp {
@@ -26,11 +26,10 @@ bool is_int_constant(const ir::Node& node) {
     return node.type == ir::Scalar::Int && std::holds_alternative<ir::Constant>(node.form);
 }
 
-// A real to an int.
-bool rounds(const ir::Node& node) {
-    const auto* apply = std::get_if<ir::Apply>(&node.form);
-    return apply && (apply->op == Operator::Round || apply->op == Operator::Floor ||
-                     apply->op == Operator::Ceil);
+// Of a real, without its int.
+std::string_view rounding_function(Operator op) {
+    if (op == Operator::Round) return "round_as_real";
+    return op == Operator::Floor ? "floor_as_real" : "ceil_as_real";
 }
 
 }  // namespace
@@ -146,10 +145,9 @@ Expression Expressions::lower(const ir::Node&, const ir::Local& local) {
 Expression Expressions::lower(const ir::Node& node, const ir::Convert& convert) {
     if (node.type == ir::Scalar::Int) return call("to_int", {convert.operand});
     if (unit_.program.real == RealType::Float) return call("to_float", {convert.operand});
-    const ir::Node& operand = unit_.program[convert.operand];
-    if (!rounds(operand)) return call("to_real", {convert.operand});
-    const auto& apply = std::get<ir::Apply>(operand.form);
-    return call(std::string(name_of(apply.op)) + "_as_real", apply.operands);
+    if (!convert.skips_int) return call("to_real", {convert.operand});
+    const auto& rounded = std::get<ir::Apply>(unit_.program[convert.operand].form);
+    return call(rounding_function(rounded.op), rounded.operands);
 }
 
 Expression Expressions::lower(const ir::Node&, const ir::Apply& apply) {
@@ -178,17 +176,9 @@ Expression Expressions::lower(const ir::Node& node, const ir::Reduce&) {
 }
 
 Expression Expressions::lower(const ir::Node&, const ir::Sample& sample) {
-    const std::string valid = needs_no_check(sample) ? "valid_" : "";
-    return call("sample::" + valid + function_of(sample.distribution), sample.parameters,
-                sample.place);
-}
-
-// The C++ compiler sees by itself that a number in the text is a probability.
-bool Expressions::needs_no_check(const ir::Sample& sample) const {
-    if (sample.distribution != Distribution::Bernoulli) return false;
-    const ir::NodeId p = sample.parameters.front();
-    if (std::holds_alternative<ir::Constant>(unit_.program[p].form)) return false;
-    return always_in_domain(sample.distribution, std::array{unit_.properties_of(p).range});
+    const std::string function =
+        sample.is_valid ? "valid_bernoulli" : function_of(sample.distribution);
+    return call("sample::" + function, sample.parameters, sample.place);
 }
 
 Expression Expressions::lower(const ir::Node&, const ir::Discrete& discrete) {
@@ -236,11 +226,11 @@ tree::Expressions Expressions::all_of(std::span<const ir::NodeId> operands) {
     return expressions;
 }
 
-Expression Expressions::call(const std::string& function, const std::vector<ir::NodeId>& operands,
+Expression Expressions::call(std::string_view function, const std::vector<ir::NodeId>& operands,
                              const std::optional<ir::Place>& where) {
     tree::Expressions arguments = where ? place(*where) : tree::Expressions{};
     append(arguments, all_of(operands));
-    return tree::call("rddl::" + function, std::move(arguments));
+    return tree::call("rddl::" + std::string(function), std::move(arguments));
 }
 
 tree::Expressions Expressions::place(const ir::Place& place) {
@@ -252,7 +242,34 @@ tree::Expressions Expressions::place(const ir::Place& place) {
     return {word(context()), braces("", std::move(numbers))};
 }
 
+const ir::Reduce* Expressions::over_true(const ir::Node& binder) const {
+    const auto* reduce = std::get_if<ir::Reduce>(&binder.form);
+    return reduce && reduce->over_true && !several_ ? reduce : nullptr;
+}
+
+// "state.p[c]"
+Expression Expressions::row_of_bools(const ir::Reduce& reduce) {
+    const ir::Load& load = *ir::row_of_bools(unit_.program, reduce);
+    return elements(record(load.buffer),
+                    std::span(load.indices).first(load.indices.size() - 1));
+}
+
+// "rddl::count_true(state.p[c])"
+std::optional<Expression> Expressions::count_of_true(const ir::Node& binder) {
+    const ir::Reduce* sum = over_true(binder);
+    if (!sum || std::holds_alternative<ir::Select>(unit_.program[sum->body].form))
+        return std::nullopt;
+    return tree::call("rddl::count_true", {row_of_bools(*sum)});
+}
+
+ir::NodeId Expressions::bound_value(const ir::Node& binder) const {
+    const ir::Reduce* sum = over_true(binder);
+    if (!sum) return ir::operands_of(binder).front();
+    return std::get<ir::Select>(unit_.program[sum->body].form).then_value;
+}
+
 std::string Expressions::binder_function(const ir::Node& binder) {
+    if (over_true(binder)) return "rddl::sum_over_true<" + type(binder.type) + ">";
     if (const auto* reduce = std::get_if<ir::Reduce>(&binder.form)) {
         const std::string function = "rddl::" + function_of(reduce->op);
         return several_ ? function : function + "<" + type(binder.type) + ">";
@@ -262,6 +279,12 @@ std::string Expressions::binder_function(const ir::Node& binder) {
 }
 
 tree::Expressions Expressions::binder_arguments(const ir::Node& binder) {
+    if (const ir::Reduce* sum = over_true(binder)) {
+        const auto& term = std::get<ir::Select>(unit_.program[sum->body].form);
+        if (term.evaluated != ir::Evaluated::Branch) return {row_of_bools(*sum)};
+        uses_.context = true;
+        return {word(context()), row_of_bools(*sum)};
+    }
     if (const auto* reduce = std::get_if<ir::Reduce>(&binder.form)) {
         if (!several_) return {range(*reduce)};
         uses_.context = true;
@@ -351,64 +374,48 @@ tree::Statement Expressions::external_call(const ir::Call& call) {
     return {tree::call(function, std::move(arguments))};
 }
 
-// "rddl::at_row<up_by_count, up_kind>(x, count)": from a row of each of several objects, or of its
-// kind.
-std::optional<Expression> Expressions::element_of_row(const ir::Load& load) {
-    const auto is_constant = [&](ir::BufferId id) {
-        return unit_.program[id].storage == ir::Storage::Constant;
-    };
-    const bool is_row = several_ && load.indices.size() == 2 && is_constant(load.buffer) &&
-                        unit_.program[load.buffer].scalar == ir::Scalar::Real;
-    if (!is_row) return std::nullopt;
-    const auto is_of_objects = [&](const std::vector<ir::NodeId>& indices) {
-        return indices.size() == several_->nest.variables.size() &&
-               ir::begins_with(unit_.program, indices, several_->nest);
-    };
-    std::string tables = unit_.names.buffers[load.buffer.index];
-    if (!is_of_objects({load.indices[0]})) {
-        const auto* kind = std::get_if<ir::Load>(&unit_.program[load.indices[0]].form);
-        const bool is_kind = kind && !is_named(load.indices[0]) && is_constant(kind->buffer) &&
-                             is_of_objects(kind->indices);
-        if (!is_kind) return std::nullopt;
-        tables += ", " + unit_.names.buffers[kind->buffer.index];
-    }
-    return tree::call("rddl::at_row<" + tables + ">",
-                      {word(several_->objects), lower(load.indices[1])});
-}
-
-// Uniform indices first in brackets; from the first other one on, the lanes differ.
 Expression Expressions::lower(const ir::Node&, const ir::Load& load) {
-    if (const auto element = element_of_row(load)) return *element;
-    Expression table = record(load.buffer);
     const std::span<const ir::NodeId> indices = load.indices;
-    const auto at = [&](const char* function, std::size_t first) {
-        tree::Expressions arguments = {table};
-        if (several_) arguments.push_back(word(several_->objects));
-        append(arguments, all_of(indices.subspan(first)));
-        return tree::call(function, std::move(arguments));
-    };
-    if (several_ && ir::begins_with(unit_.program, load.indices, several_->nest))
-        return at("rddl::at", several_->nest.variables.size());
-    const auto are_same_for_all = [&](std::span<const ir::NodeId> ids) {
-        return std::ranges::all_of(ids, [&](ir::NodeId id) {
-            return !several_ || ir::is_same_for_all(unit_.properties_of(id), several_->nest);
-        });
-    };
-    if (several_ && ir::ends_with(unit_.program, load.indices, several_->nest)) {
-        const auto part = indices.first(indices.size() - several_->nest.variables.size());
-        if (are_same_for_all(part))
-            return tree::call("rddl::at",
-                              {elements(std::move(table), part), word(several_->objects)});
+    switch (load.gather) {
+        case ir::Gather::Adjacent:
+            return of_objects("rddl::at", record(load.buffer),
+                              indices.subspan(several_->nest.variables.size()));
+        case ir::Gather::InRow: {
+            const auto row = indices.first(indices.size() - several_->nest.variables.size());
+            return of_objects("rddl::at", elements(record(load.buffer), row), {});
+        }
+        case ir::Gather::Rows:
+            return element_of_row(load);
+        case ir::Gather::Own:
+            return of_objects("rddl::at_own", record(load.buffer), indices);
+        case ir::Gather::None:
+            break;
     }
-    if (!are_same_for_all(indices)) return at("rddl::at_own", 0);
+    // Uniform indices stand in brackets; from the first other one on, the lanes differ.
     const auto next =
         std::ranges::find_if(indices, [&](ir::NodeId id) { return !unit_.is_uniform(id); });
     const auto uniform = static_cast<std::size_t>(next - indices.begin());
-    table = elements(std::move(table), indices.first(uniform));
+    Expression table = elements(record(load.buffer), indices.first(uniform));
     if (uniform == indices.size()) return table;
     tree::Expressions arguments = {std::move(table)};
     append(arguments, all_of(indices.subspan(uniform)));
     return tree::call("rddl::at", std::move(arguments));
+}
+
+Expression Expressions::of_objects(const char* function, Expression table,
+                                   std::span<const ir::NodeId> indices) {
+    tree::Expressions arguments = {std::move(table), word(several_->objects)};
+    append(arguments, all_of(indices));
+    return tree::call(function, std::move(arguments));
+}
+
+// "rddl::at_row<up_by_count, up_kind>(x, count)": the row of each object, or of its kind.
+Expression Expressions::element_of_row(const ir::Load& load) {
+    std::string tables = unit_.names.buffers[load.buffer.index];
+    if (const auto* kind = std::get_if<ir::Load>(&unit_.program[load.indices[0]].form))
+        tables += ", " + unit_.names.buffers[kind->buffer.index];
+    return tree::call("rddl::at_row<" + tables + ">",
+                      {word(several_->objects), lower(load.indices[1])});
 }
 
 // Arithmetic of objects cannot overflow, so it needs no wrapping functions.

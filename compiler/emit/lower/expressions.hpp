@@ -58,11 +58,12 @@ class Expressions {
     // An aggregation or a draw over objects; `body` is called while its variable has a name.
     template <class Body>
     tree::Expression lower_binder(const ir::Node& binder, Body&& body) {
+        if (auto count = count_of_true(binder)) return *std::move(count);
         tree::Expressions arguments = binder_arguments(binder);
         const Mark before = mark();
         const ir::VariableId variable = *ir::bound_variable(binder);
         enter(variable);
-        const ir::NodeId value = ir::operands_of(binder).front();
+        const ir::NodeId value = bound_value(binder);
         arguments.push_back({tree::Lambda{{parameter(variable, value)}, body(value)}});
         return_to(before);
         return tree::call(binder_function(binder), std::move(arguments));
@@ -123,15 +124,23 @@ class Expressions {
     tree::Expression lower(const ir::Node& node, const ir::Fault& fault);
 
     tree::Expression inline_binder(const ir::Node& node);
-    tree::Expression call(const std::string& function, const std::vector<ir::NodeId>& operands,
+    tree::Expression call(std::string_view function, const std::vector<ir::NodeId>& operands,
                           const std::optional<ir::Place>& place = {});
     std::string binder_function(const ir::Node& binder);
+    // The sum, if it visits true elements alone.
+    const ir::Reduce* over_true(const ir::Node& binder) const;
+    std::optional<tree::Expression> count_of_true(const ir::Node& binder);
+    // The term of an aggregation, or the weight of a draw.
+    ir::NodeId bound_value(const ir::Node& binder) const;
+    tree::Expression row_of_bools(const ir::Reduce& reduce);
     tree::Expressions binder_arguments(const ir::Node& binder);
     // "rddl::Index r"; without the name where the body does not use it.
     tree::Expression parameter(ir::VariableId variable, ir::NodeId body) const;
     // The range of an aggregation: a count, a row of a table, or rddl::IndexRange(begin, end).
     tree::Expression range(const ir::Reduce& reduce);
-    std::optional<tree::Expression> element_of_row(const ir::Load& load);
+    tree::Expression of_objects(const char* function, tree::Expression table,
+                                std::span<const ir::NodeId> indices);
+    tree::Expression element_of_row(const ir::Load& load);
     tree::Expressions all_of(std::span<const ir::NodeId> operands);
     // The context and the place of a draw or a fault.
     tree::Expressions place(const ir::Place& place);
@@ -141,7 +150,6 @@ class Expressions {
     tree::Statement external_call(const ir::Call& call);
     tree::Expression index(ir::NodeId id);
     bool is_plain_index(ir::NodeId id) const;
-    bool needs_no_check(const ir::Sample& sample) const;
 
     const Unit& unit_;
     Scope scope_;

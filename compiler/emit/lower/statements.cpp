@@ -16,8 +16,6 @@ namespace {
 
 // Longer conditions get a name.
 constexpr std::size_t longest_condition = 45;
-// In operations (Properties::cost): what packs may compute for all lanes though no lane needs it.
-constexpr double cost_without_jumps = 128;
 // Longer operands of a chain get a name of their own instead of a line of their own.
 constexpr std::size_t longest_operand = 75;
 // Shorter texts are not worth a name.
@@ -293,8 +291,7 @@ tree::Expression FunctionBody::value(Use use, ir::NodeId id) {
 }
 
 // A chain of else-ifs is one call: its conditions after the first are lambdas, like its values.
-// What packs may evaluate in all lanes, since it costs little and neither draws nor faults, needs
-// no context. An elementary function costs more than a jump that lanes do not agree about.
+// What packs evaluate in all lanes needs no context.
 tree::Expression FunctionBody::branch(const ir::Select& select) {
     std::vector<ir::NodeId> lambdas = {select.then_value};
     ir::NodeId last = select.else_value;
@@ -305,22 +302,13 @@ tree::Expression FunctionBody::branch(const ir::Select& select) {
     lambdas.push_back(last);
 
     tree::Expressions arguments;
-    if (!are_harmless(lambdas)) {
+    if (select.evaluated == ir::Evaluated::Branch) {
         expressions_.uses().context = true;
         arguments.push_back(tree::word(expressions_.context()));
     }
     arguments.push_back(expressions_.lower(select.condition));
     for (ir::NodeId lambda : lambdas) arguments.push_back({tree::Lambda{{}, returning(lambda, 2)}});
     return tree::call("rddl::branch", std::move(arguments));
-}
-
-bool FunctionBody::are_harmless(const std::vector<ir::NodeId>& lambdas) const {
-    double cost = 0;
-    for (ir::NodeId lambda : lambdas) cost += expressions_.unit().properties_of(lambda).cost;
-    return cost <= cost_without_jumps && std::ranges::all_of(lambdas, [&](ir::NodeId lambda) {
-               const ir::Properties& properties = expressions_.unit().properties_of(lambda);
-               return ir::is_droppable(properties) && !properties.elementary;
-           });
 }
 
 // Too many weights for one line are set one by one.
@@ -375,7 +363,7 @@ bool FunctionBody::is_block(ir::NodeId id) const {
 const ir::Select* FunctionBody::lazy_select(ir::NodeId id) const {
     if (expressions_.is_named(id)) return nullptr;
     const auto* select = std::get_if<ir::Select>(&program()[id].form);
-    return select && expressions_.unit().is_lazy(*select) ? select : nullptr;
+    return select && select->evaluated != ir::Evaluated::Both ? select : nullptr;
 }
 
 // a + b - c -> a, b, c

@@ -53,7 +53,6 @@ class FunctionBody {
     // A value that has been prepared.
     tree::Expression value(Use use, ir::NodeId id);
     tree::Expression branch(const ir::Select& select);
-    bool are_harmless(const std::vector<ir::NodeId>& lambdas) const;
     tree::Expression discrete(const ir::Discrete& discrete);
     // The statements that `add` adds, deeper by so many levels.
     template <class Add>

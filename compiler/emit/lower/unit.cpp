@@ -37,16 +37,11 @@ Unit::Unit(const ir::Program& the_program, const Sources& the_sources,
             keeps_uniform(program, node) &&
             std::ranges::all_of(operands, [&](ir::NodeId operand) { return is_uniform(operand); });
         const auto* select = std::get_if<ir::Select>(&node.form);
-        contains_branch[index] = select && is_lazy(*select);
+        contains_branch[index] = select && select->evaluated != ir::Evaluated::Both;
         for (ir::NodeId operand : operands) {
             if (contains_branch[operand.index]) contains_branch[index] = true;
         }
     }
-}
-
-bool Unit::is_lazy(const ir::Select& select) const {
-    return ir::is_lazy(program, select, properties_of(select.then_value),
-                       properties_of(select.else_value));
 }
 
 std::string Unit::size_of(const ir::Variable& variable) const {

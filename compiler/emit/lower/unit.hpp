@@ -22,7 +22,7 @@ struct Unit {
     Names names;
     std::vector<ir::Properties> properties;  // by NodeId
     std::vector<bool> uniform_ints;          // by NodeId; is_uniform tells
-    std::vector<bool> contains_branch;       // by NodeId: it is a lazy select, or has one inside
+    std::vector<bool> contains_branch;       // by NodeId: it branches, or has what does inside
 
     const ir::Properties& properties_of(ir::NodeId id) const { return properties[id.index]; }
 
@@ -30,8 +30,6 @@ struct Unit {
     // entries of constant tables by operators alone. It may stand in array[i], and number a place.
     bool is_uniform(ir::NodeId id) const { return uniform_ints[id.index]; }
 
-    // The else-branch or the then-branch must not be evaluated unless taken.
-    bool is_lazy(const ir::Select& select) const;
     // The number of objects that a loop runs over, by the name of its type where it is all of them.
     std::string size_of(const ir::Variable& variable) const;
     // A number of objects, by the name of the type where it is all of them.

@@ -1,0 +1,184 @@
+#include "passes/lanes/choose_evaluation.hpp"
+
+#include "ir/analysis.hpp"
+#include "ir/nest.hpp"
+#include "ir/rewrite.hpp"
+#include "ir/row_of_bools.hpp"
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <optional>
+#include <span>
+#include <utility>
+#include <variant>
+#include <vector>
+
+namespace rddlc::passes {
+namespace {
+
+// In operations (Properties::cost): what packs may compute for all lanes though no lane needs it.
+constexpr double most_without_jumps = 128;
+
+// ----------------------------------------------------------------- loads of several objects
+
+class Gathering {
+  public:
+    Gathering(ir::Program program, Report& report)
+        : program_(std::move(program)), report_(report), builder_(program_) {}
+
+    ir::Program run() && {
+        for (ir::Definition& definition : program_.step) gather_in(definition.body);
+        gather_in(program_.reward.body);
+        return ir::collect_garbage(std::move(program_));
+    }
+
+  private:
+    void gather_in(ir::Block& block) {
+        for (ir::Statement& statement : block) {
+            auto* const loop = std::get_if<ir::Loop>(&statement.form);
+            if (!loop || !loop->several_at_once) continue;
+            const ir::Nest nest = ir::nest_of(*loop);
+            std::map<ir::NodeId, ir::NodeId> known;
+            ir::change_roots(ir::innermost_body(*loop), [&](ir::NodeId& id) {
+                if (!std::holds_alternative<ir::Index>(program_[id].form))
+                    id = gathered(id, nest, known);
+            });
+        }
+    }
+
+    ir::NodeId gathered(ir::NodeId id, const ir::Nest& nest,
+                        std::map<ir::NodeId, ir::NodeId>& known) {
+        return ir::replace_in(builder_, id, known,
+                              [&](ir::NodeId each) -> std::optional<ir::NodeId> {
+                                  const auto* load = std::get_if<ir::Load>(&program_[each].form);
+                                  if (!load || load->gather != ir::Gather::None)
+                                      return std::nullopt;
+                                  const ir::Gather gather = gather_of(*load, nest);
+                                  if (gather == ir::Gather::None) return each;
+                                  ++report_["loads of several objects"];
+                                  const ir::BufferId buffer = load->buffer;
+                                  std::vector<ir::NodeId> indices = load->indices;
+                                  for (ir::NodeId& index : indices)
+                                      index = gathered(index, nest, known);
+                                  return builder_.load(buffer, std::move(indices), gather);
+                              });
+    }
+
+    ir::Gather gather_of(const ir::Load& load, const ir::Nest& nest) const {
+        if (are_rows(load, nest)) return ir::Gather::Rows;
+        if (ir::begins_with(program_, load.indices, nest)) return ir::Gather::Adjacent;
+        const auto are_same = [&](std::span<const ir::NodeId> indices) {
+            return std::ranges::all_of(indices, [&](ir::NodeId index) {
+                return ir::is_same_for_all(builder_.properties(index), nest);
+            });
+        };
+        const std::span<const ir::NodeId> indices = load.indices;
+        if (are_same(indices)) return ir::Gather::None;
+        const bool is_in_row = ir::ends_with(program_, load.indices, nest) &&
+                               are_same(indices.first(indices.size() - nest.variables.size()));
+        return is_in_row ? ir::Gather::InRow : ir::Gather::Own;
+    }
+
+    bool are_rows(const ir::Load& load, const ir::Nest& nest) const {
+        if (load.indices.size() != 2 || !is_constant(load.buffer) ||
+            program_[load.buffer].scalar != ir::Scalar::Real)
+            return false;
+        const auto are_objects = [&](const std::vector<ir::NodeId>& indices) {
+            return indices.size() == nest.variables.size() &&
+                   ir::begins_with(program_, indices, nest);
+        };
+        const auto* kind = std::get_if<ir::Load>(&program_[load.indices[0]].form);
+        return are_objects({load.indices[0]}) ||
+               (kind && is_constant(kind->buffer) && are_objects(kind->indices));
+    }
+    bool is_constant(ir::BufferId id) const {
+        return program_[id].storage == ir::Storage::Constant;
+    }
+
+    ir::Program program_;
+    Report& report_;
+    ir::Builder builder_;
+};
+
+// -------------------------------------------------------------------------------- choices
+
+class Choices {
+  public:
+    explicit Choices(const ir::Program& program)
+        : program_(program), properties_(ir::all_properties(program)) {}
+
+    // The C++ compiler sees by itself that a number in the text is a probability.
+    bool is_valid(const ir::Sample& sample) const {
+        if (sample.distribution != Distribution::Bernoulli) return false;
+        const ir::NodeId p = sample.parameters.front();
+        return !std::holds_alternative<ir::Constant>(program_[p].form) &&
+               always_in_domain(sample.distribution, std::array{of(p).range});
+    }
+
+    bool skips_int(const ir::Convert& convert, ir::Scalar type) const {
+        const auto* apply = std::get_if<ir::Apply>(&program_[convert.operand].form);
+        return apply && type == ir::Scalar::Real && program_.real == RealType::Double &&
+               (apply->op == Operator::Round || apply->op == Operator::Floor ||
+                apply->op == Operator::Ceil);
+    }
+
+    bool over_true(const ir::Reduce& reduce) const {
+        return ir::row_of_bools(program_, reduce) != nullptr;
+    }
+
+    ir::Evaluated evaluated(const ir::Select& select) const {
+        if (!is_lazy(select)) return ir::Evaluated::Both;
+        return is_harmless(select) ? ir::Evaluated::PackBoth : ir::Evaluated::Branch;
+    }
+
+  private:
+    // A chain of else-ifs is evaluated as one: all but its first condition are in branches.
+    bool is_harmless(const ir::Select& first) const {
+        double cost = 0;
+        const auto add = [&](ir::NodeId id) {
+            cost += of(id).cost;
+            // Lanes that jump one after the other take less time than elementary functions.
+            return ir::is_droppable(of(id)) && !of(id).elementary;
+        };
+        const ir::Select* last = &first;
+        for (bool is_first = true; last; is_first = false) {
+            if ((!is_first && !add(last->condition)) || !add(last->then_value)) return false;
+            const auto* next = std::get_if<ir::Select>(&program_[last->else_value].form);
+            if (!next || !is_lazy(*next)) break;
+            last = next;
+        }
+        return add(last->else_value) && cost <= most_without_jumps;
+    }
+    bool is_lazy(const ir::Select& select) const {
+        return ir::is_lazy(program_, select, of(select.then_value), of(select.else_value));
+    }
+    const ir::Properties& of(ir::NodeId id) const { return properties_[id.index]; }
+
+    const ir::Program& program_;
+    std::vector<ir::Properties> properties_;
+};
+
+}  // namespace
+
+ir::Program choose_evaluation(ir::Program program, Report& report) {
+    program = Gathering(std::move(program), report).run();
+    const Choices choices(program);
+    const auto choose = [&](auto& choice, auto chosen, const char* what) {
+        report[what] += std::exchange(choice, chosen) != chosen;
+    };
+    for (ir::Node& node : program.nodes) {
+        if (auto* select = std::get_if<ir::Select>(&node.form))
+            choose(select->evaluated, choices.evaluated(*select), "selects without jumps");
+        if (auto* sample = std::get_if<ir::Sample>(&node.form))
+            choose(sample->is_valid, choices.is_valid(*sample), "draws without a check");
+        if (auto* reduce = std::get_if<ir::Reduce>(&node.form))
+            choose(reduce->over_true, choices.over_true(*reduce), "sums over true elements");
+        if (auto* convert = std::get_if<ir::Convert>(&node.form))
+            choose(convert->skips_int, choices.skips_int(*convert, node.type),
+                   "rounded reals without an int");
+    }
+    return program;
+}
+
+}  // namespace rddlc::passes

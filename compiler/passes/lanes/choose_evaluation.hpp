@@ -1,0 +1,25 @@
+// Writes into the program how emitted code evaluates what it may evaluate in several ways. The
+// values are the same; the last pass, since it goes by the final expressions.
+//
+//     select(state.on[x], 2.0 * state.heat[x], 0.0)
+//                              =>  select both(state.on[x], 2.0 * state.heat[x], 0.0)
+//     sample bernoulli@0[x](RATE[x])
+//                              =>  sample valid bernoulli@0[x](RATE[x])
+//     real(round(state.heat[x]))
+//                              =>  rounded real(round(state.heat[x]))
+//
+// and in loops over several objects at once
+//
+//     state.on[x]              =>  adjacent state.on[x]
+//     HEAT[KIND[x], count]     =>  rows HEAT[adjacent KIND[x], count]
+//     state.on[NEXT[x]]        =>  own state.on[adjacent NEXT[x]]
+#pragma once
+
+#include "ir/ir.hpp"
+#include "passes/report.hpp"
+
+namespace rddlc::passes {
+
+ir::Program choose_evaluation(ir::Program program, Report& report);
+
+}  // namespace rddlc::passes

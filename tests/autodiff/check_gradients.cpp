@@ -1,0 +1,87 @@
+// Gradients of problems against differences, and their values against the interpreter's:
+//
+//     check_gradients [FOLDER [STEPS [all]]]
+//
+// takes the first instance of each folder with a domain.rddl, or all of them. Without a folder it
+// is that of rddlrepository.
+#include "../parse/rddl_repository.hpp"
+#include "driver/driver.hpp"
+#include "step_check.hpp"
+#include "support/failure.hpp"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cstdlib>
+#include <filesystem>
+#include <set>
+
+namespace fs = std::filesystem;
+
+namespace {
+
+using namespace rddlc;
+
+std::vector<fs::path> instances_of(const fs::path& folder, bool takes_all) {
+    std::set<fs::path> folders;
+    for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder))
+        if (entry.path().filename() == "domain.rddl") folders.insert(entry.path().parent_path());
+    std::vector<fs::path> found;
+    for (const fs::path& each : folders) {
+        std::set<fs::path> instances;
+        for (const fs::directory_entry& entry : fs::directory_iterator(each))
+            if (entry.path().filename().string().starts_with("instance") &&
+                entry.path().extension() == ".rddl")
+                instances.insert(entry.path());
+        for (const fs::path& instance : instances) {
+            found.push_back(instance);
+            if (!takes_all) break;
+        }
+    }
+    return found;
+}
+
+// Whether all is right.
+bool check(const fs::path& instance, std::int64_t steps) {
+    const std::string name = (instance.parent_path().filename() / instance.stem()).string();
+    CompileOptions options;
+    options.inputs = {instance.parent_path() / "domain.rddl", instance};
+    options.stop_after = Stage::Verify;
+    const Compilation compilation = compile(options);
+    if (!compilation.program) {
+        fmt::print("{:<40} does not compile\n", name);
+        return false;
+    }
+    const auto begin = std::chrono::steady_clock::now();
+    try {
+        autodiff::StepChecker checker(*compilation.program);
+        const autodiff::StepCheck result = checker.run(steps);
+        const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
+        const bool is_right = result.different_values + result.wrong_derivatives == 0;
+        fmt::print(
+            "{:<40} {:>8} instructions {:>7} values {:>5} derivatives {:>5} not smooth "
+            "{:>6.2f} s {}\n",
+            name, result.instructions, result.values, result.derivatives, result.not_smooth,
+            seconds.count(), is_right ? "" : "WRONG: " + result.first_complaint);
+        return is_right;
+    } catch (const Failure& failure) {
+        fmt::print("{:<40} refused: {}\n", name, failure.what());
+        return true;
+    }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    const fs::path folder = argc > 1 ? fs::path(argv[1]) : rddl_repository();
+    if (folder.empty() || !fs::exists(folder)) {
+        fmt::print("no rddlrepository here\n");
+        return 77;
+    }
+    const std::int64_t steps = argc > 2 ? std::atoll(argv[2]) : 10;
+    const bool takes_all = argc > 3;
+    bool all = true;
+    for (const fs::path& instance : instances_of(folder, takes_all))
+        all = check(instance, steps) && all;
+    return all ? 0 : 1;
+}
