@@ -259,8 +259,8 @@ NodeId Builder::select(NodeId condition, NodeId then_value, NodeId else_value,
         {program_[then_value].type, Select{condition, then_value, else_value, evaluated}});
 }
 
-NodeId Builder::reduce(Reduction op, VariableId variable, NodeId body,
-                       std::optional<Bounds> bounds, bool over_true) {
+NodeId Builder::reduce(Reduction op, VariableId variable, NodeId body, std::optional<Bounds> bounds,
+                       bool over_true) {
     const Scalar type = result_type(op, program_[body].type);
     const std::int64_t size = program_[variable].size;
     if (op == Reduction::Sum) body = without_zero(program_, body);  // it begins with 0.0

@@ -358,8 +358,8 @@ class Printer {
     }
     std::string text(const Reduce& form, Scalar, Precedence) const {
         return fmt::format("{}{}[{}]({})", rddlc::name_of(form.op),
-                           form.over_true ? " over true" : "",
-                           binding(form.variable, form.bounds), expression(form.body));
+                           form.over_true ? " over true" : "", binding(form.variable, form.bounds),
+                           expression(form.body));
     }
     std::string text(const Sample& form, Scalar, Precedence) const {
         return fmt::format("sample {}{}{}({})", form.is_valid ? "valid " : "",

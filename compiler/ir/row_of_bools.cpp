@@ -31,9 +31,8 @@ bool is_in_row_of_bools(const Program& program, NodeId id, VariableId variable) 
     };
     const std::span<const NodeId> others = std::span(load->indices).first(load->indices.size() - 1);
     return buffer.scalar == Scalar::Bool && buffer.storage != Storage::Constant &&
-           buffer.shape.back() >= fewest_in_row &&
-           buffer.shape.back() == program[variable].size && is_index(load->indices.back()) &&
-           std::ranges::all_of(others, [&](NodeId index) {
+           buffer.shape.back() >= fewest_in_row && buffer.shape.back() == program[variable].size &&
+           is_index(load->indices.back()) && std::ranges::all_of(others, [&](NodeId index) {
                return !is_index(index) && (std::holds_alternative<Index>(program[index].form) ||
                                            std::holds_alternative<Constant>(program[index].form));
            });

@@ -16,9 +16,9 @@
 #include <rddl/values/moderate.hpp>
 #include <rddl/values/ops.hpp>
 #include <rddl/values/reductions.hpp>
-#include <rddl/values/true_elements.hpp>
 #include <rddl/values/search.hpp>
 #include <rddl/values/tables.hpp>
+#include <rddl/values/true_elements.hpp>
 
 #include <array>
 #include <cstddef>

@@ -250,8 +250,7 @@ const ir::Reduce* Expressions::over_true(const ir::Node& binder) const {
 // "state.p[c]"
 Expression Expressions::row_of_bools(const ir::Reduce& reduce) {
     const ir::Load& load = *ir::row_of_bools(unit_.program, reduce);
-    return elements(record(load.buffer),
-                    std::span(load.indices).first(load.indices.size() - 1));
+    return elements(record(load.buffer), std::span(load.indices).first(load.indices.size() - 1));
 }
 
 // "rddl::count_true(state.p[c])"

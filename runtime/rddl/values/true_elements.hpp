@@ -26,8 +26,8 @@ template <std::size_t n, class Visit>
 RDDL_INLINE void for_each_word(const std::array<bool, n>& row, Visit&& visit) {
     constexpr Index size = static_cast<Index>(n);
     for (Index first = 0; first < size; first += 64)
-        visit(first, simd::bits_of_stored_bytes(row.data() + first,
-                                                static_cast<int>(std::min<Index>(64, size - first))));
+        visit(first, simd::bits_of_stored_bytes(
+                         row.data() + first, static_cast<int>(std::min<Index>(64, size - first))));
 }
 
 }  // namespace detail
@@ -36,8 +36,8 @@ RDDL_INLINE void for_each_word(const std::array<bool, n>& row, Visit&& visit) {
 template <std::size_t n>
 RDDL_INLINE std::int64_t count_true(const std::array<bool, n>& row) {
     std::int64_t total = 0;
-    detail::for_each_word(
-        row, [&](Index, std::uint64_t bits) { total += __builtin_popcountll(bits); });
+    detail::for_each_word(row,
+                          [&](Index, std::uint64_t bits) { total += __builtin_popcountll(bits); });
     return total;
 }
 template <std::size_t n, int width>
@@ -64,9 +64,8 @@ RDDL_INLINE T sum_over_true(Context<ScalarOf<R>>&, const std::array<bool, n>& ro
 }
 template <class T, std::size_t n, int width, class Body>
 RDDL_INLINE T sum_over_true(const std::array<Mask<width>, n>& row, Body&& body) {
-    return sum<T>(static_cast<Index>(n), [&](Index i) {
-        return select(row[static_cast<std::size_t>(i)], body(i), T{0});
-    });
+    return sum<T>(static_cast<Index>(n),
+                  [&](Index i) { return select(row[static_cast<std::size_t>(i)], body(i), T{0}); });
 }
 template <class T, class L, std::size_t n, int width, class Body>
 RDDL_INLINE T sum_over_true(Context<L>& context, const std::array<Mask<width>, n>& row,
