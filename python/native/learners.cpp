@@ -15,6 +15,7 @@
 #include "support/files.hpp"
 
 #include <fmt/format.h>
+#include <nanobind/ndarray.h>
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
@@ -23,7 +24,9 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <numeric>
 #include <optional>
+#include <span>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -50,16 +53,8 @@ class Policy {
     // Writes the actions of all environments, which are at these steps of their episodes. Those of
     // a new batch, and those at step 0, begin.
     void act(EnvPool& batch, bool begins, const solvers::Stops* stops = nullptr) {
-        const bool is_bound = bind(batch);
-        const auto count = static_cast<std::size_t>(batch.settings().environments);
-        if (begins || is_bound || !actor_ || running_.size() != count) {
-            actor_ = acting_->start(batch.settings().environments);
-            running_.assign(count, 1);
-            violated_.assign(count, -1);
-            episodes_.assign(count, 0);
-            steps_.assign(count, 0);
-        }
-        for (std::size_t i = 0; i < count; ++i) {
+        start(batch, begins);
+        for (std::size_t i = 0; i < running_.size(); ++i) {
             std::tie(steps_[i], episodes_[i]) = batch.progress(static_cast<std::int64_t>(i));
             running_[i] = batch.causes(static_cast<std::int64_t>(i)) == RDDL_RUNNING;
         }
@@ -79,6 +74,17 @@ class Policy {
         };
         plans_.run([this, &batch, begins, stops] { act(batch, begins, &stops); }, {},
                    [stop] { *stop = true; });
+    }
+
+    // Actions of the random policy, where the environments stand: others for each number.
+    void draw(EnvPool& batch, std::uint32_t number, std::span<std::byte> actions) {
+        start(batch, false);
+        running_.assign(running_.size(), 1);
+        std::iota(episodes_.begin(), episodes_.end(), std::int64_t{0});
+        steps_.assign(steps_.size(), number);
+        solvers::Decision decision{batch.handle(), running_,       episodes_,
+                                   steps_,         actions.data(), violated_};
+        actor_(decision);
     }
 
     // Ctrl-C ends it.
@@ -104,6 +110,17 @@ class Policy {
     }
 
   private:
+    void start(const EnvPool& batch, bool begins) {
+        const bool is_bound = bind(batch);
+        const auto count = static_cast<std::size_t>(batch.settings().environments);
+        if (!begins && !is_bound && actor_ && running_.size() == count) return;
+        actor_ = acting_->start(batch.settings().environments);
+        running_.assign(count, 1);
+        violated_.assign(count, -1);
+        episodes_.assign(count, 0);
+        steps_.assign(count, 0);
+    }
+
     // Reads the policy again for the simulator of that batch, of which it also reads non-fluents,
     // unless it acts there already. A policy that does not fit leaves everything as it is.
     bool bind(const EnvPool& batch) {
@@ -285,6 +302,16 @@ void add_learners(nb::module_& module) {
             "act", [](Policy& policy, EnvPool& batch, bool begins) { policy.act(batch, begins); },
             nb::arg("batch"), nb::arg("begins"))
         .def("plan", &Policy::plan, nb::arg("batch"), nb::arg("begins"))
+        .def(
+            "draw",
+            [](Policy& policy, EnvPool& batch, std::uint32_t number,
+               nb::ndarray<std::uint8_t, nb::ndim<2>, nb::c_contig> actions) {
+                const std::span bytes(actions.data(), actions.size());
+                if (bytes.size() != batch.arrays().actions.size())
+                    throw Refused("there is a record for each environment");
+                policy.draw(batch, number, std::as_writable_bytes(bytes));
+            },
+            nb::arg("batch"), nb::arg("number"), nb::arg("actions"))
         .def(
             "evaluate",
             [](const Policy& policy, std::int64_t episodes, std::uint64_t seed, int threads,

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-import os
 import shutil
 import sys
 from pathlib import Path
+
+from rddlc_programs import become
 
 
 def main() -> None:
@@ -13,7 +14,7 @@ def main() -> None:
     program = str(beside) if beside.exists() else shutil.which("rddl")
     if program is None:
         sys.exit(f"there is no program rddl at {beside}, nor in the folders of PATH")
-    os.execv(program, ["rddl", *sys.argv[1:]])
+    become(program, "rddl")
 
 
 main()

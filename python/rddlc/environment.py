@@ -31,7 +31,7 @@ from .translation.legal import go_on_from, legal_space
 from .translation.masks import ActionMasks
 from .translation.named_values import state_from
 from .translation.protocols import ActionWriter, ObservationReader
-from .translation.readers import dictionary_reader, observation_reader
+from .translation.readers import LearnersReader, dictionary_reader, observation_reader
 
 OBSERVATIONS = ("dict", "flat")
 ACTIONS = ("dict", "simplified", "box")
@@ -104,7 +104,7 @@ class RDDLEnv(ProblemProperties, gymnasium.Env[Any, Any]):
         self.observation_space = self._reader.space
         self.action_space = self._writer.space
         if self.model.preconditions:
-            self.action_space = legal_space(self._writer.space, self._writer, 1)
+            self.action_space = legal_space(self._writer.space, self._writer, self.problem, batch)
         self._masks = ActionMasks(self.problem, batch, self._writer)
         self._rewards, self._causes = batch.rewards, batch.causes
         self._enforces = forms["enforce_action_constraints"]
@@ -115,14 +115,16 @@ class RDDLEnv(ProblemProperties, gymnasium.Env[Any, Any]):
             self._renderer = self._new_renderer()
 
     def _new_reader(self) -> ObservationReader:
-        return observation_reader(
+        is_flat, is_learned = self._forms["observations"] == "flat", self._forms["actions"] != "dict"
+        reader = observation_reader(
             self.model.observed,
             self._batch,
-            flat=self._forms["observations"] == "flat",
+            flat=is_flat,
             lifted=self._forms["vectorized"],
             normalize=self._forms["normalize"],
-            by_values=self._forms["actions"] != "dict",
+            by_values=is_learned,
         )
+        return LearnersReader(reader) if is_learned and not is_flat else reader
 
     def _new_writer(self) -> ActionWriter:
         if self._forms["actions"] == "dict":

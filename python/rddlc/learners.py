@@ -179,7 +179,7 @@ class Learner:
         predict, to evaluate and to save. It stays the same while learning continues. For a
         policy that was loaded, and without evaluations, it is the policy as it is now."""
         text = self.policy_text if self._best is None else self._best.text
-        return self._of_text(text, self.problem)
+        return self._of_text(text, self._env or self.problem)
 
     @property
     def best_evaluation(self) -> Evaluation | None:

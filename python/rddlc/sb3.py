@@ -1,5 +1,5 @@
 """`rddlc.adapters.sb3`, under the name that programs use."""
 
-from .adapters.sb3 import MultiInput, VecEnv, make, make_vec, takes_actions
+from .adapters.sb3 import VecEnv, make, make_vec, takes_actions
 
-__all__ = ["MultiInput", "VecEnv", "make", "make_vec", "takes_actions"]
+__all__ = ["VecEnv", "make", "make_vec", "takes_actions"]

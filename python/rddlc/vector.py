@@ -139,7 +139,7 @@ class RDDLVectorEnv(ProblemProperties, VectorBase):
         self.observation_space = batch_space(self.single_observation_space, self.num_envs)
         self.action_space = batch_space(self.single_action_space, self.num_envs)
         if self.model.preconditions:
-            self.action_space = legal_space(self.action_space, self._writer, self.num_envs)
+            self.action_space = legal_space(self.action_space, self._writer, self.problem, batch)
         self._engine_shape = batch.observation_values.shape if self._reader.is_view else None
         self._rewards, self._causes = batch.rewards, batch.causes
         self._terminated, self._truncated = batch.terminated, batch.truncated

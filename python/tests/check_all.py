@@ -4,7 +4,8 @@
 
 Prints a line for each that fails, and how many pass. Warnings count as failures, except advice
 about bounds (unbounded fluents are unbounded). `--sb3` asks Stable-Baselines3's checker instead, about
-`rddlc.sb3.make`, and reports how many problems have which actions there.
+`rddlc.sb3.make`, and reports how many problems have which actions there. `--legal` draws and steps 200 random actions
+of each problem instead: they satisfy the preconditions, and take less than 2 ms of processor time to draw.
 """
 
 from __future__ import annotations
@@ -12,6 +13,7 @@ from __future__ import annotations
 import argparse
 import os
 import sys
+import time
 import traceback
 import warnings
 from collections import Counter
@@ -30,7 +32,8 @@ FORMS = {
     "box": {"observations": "flat", "actions": "box", "normalize": True},
 }
 
-SB3 = "sb3"  # in place of a form
+SB3, LEGAL = "sb3", "legal"  # in place of a form
+DRAWS, MOST_SECONDS = 200, 0.002
 sb3_actions: Counter[str] = Counter()
 
 ADVICE = (
@@ -49,6 +52,8 @@ def check(problem: rddlc.Problem, form: str) -> Iterator[str]:
         warnings.simplefilter("always")
         if form == SB3:
             check_with_sb3(problem)
+        elif form == LEGAL:
+            check_draws(problem)
         else:
             for render_mode in ("rgb_array", "ansi"):
                 env = rddlc.make(problem, render_mode=render_mode, **FORMS[form])
@@ -73,14 +78,31 @@ def check_with_sb3(problem: rddlc.Problem) -> None:
     check_sb3(env)
 
 
+def check_draws(problem: rddlc.Problem) -> None:
+    env = rddlc.make(problem, enforce_action_constraints=True)
+    env.reset(seed=1)
+    env.action_space.seed(1)
+    seconds = 0.0
+    for _ in range(DRAWS):
+        begin = time.thread_time()
+        action = env.action_space.sample()
+        seconds += time.thread_time() - begin
+        *_, terminated, truncated, _ = env.step(action)  # refuses actions that are not legal
+        if terminated or truncated:
+            env.reset()
+    if seconds / DRAWS > MOST_SECONDS:
+        warnings.warn(f"a random action takes {seconds / DRAWS * 1e3:.2f} ms", stacklevel=1)
+
+
 def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("problems", nargs="*", help="names; default: all")
     parser.add_argument("--engine", default="compiled", choices=("compiled", "interpreter"))
     parser.add_argument("--forms", default=",".join(FORMS), help="comma-separated")
     parser.add_argument("--sb3", action="store_true", help="Stable-Baselines3's checker")
+    parser.add_argument("--legal", action="store_true", help="random actions")
     options = parser.parse_args()
-    forms = [SB3] if options.sb3 else options.forms.split(",")
+    forms = [SB3] if options.sb3 else [LEGAL] if options.legal else options.forms.split(",")
     passed = failed = 0
     for listed in rddlc.problems():
         if options.problems and listed.name not in options.problems:

@@ -385,6 +385,7 @@ class Verbs(unittest.TestCase):
                 model = copy.copy(learned)
                 model._env = env
                 observation, _ = env.reset(seed=3)
+                self.assertIn(model.best.predict(observation)[0], env.action_space)
                 total, over = 0.0, False
                 while not over:
                     action, _ = model.predict(observation)

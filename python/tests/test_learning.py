@@ -36,6 +36,28 @@ class FlatObservations(unittest.TestCase):
         self.assertEqual(env.step({"pour": 1.0})[0], [-0.5])
 
 
+class DictionariesForLearners(unittest.TestCase):
+    def test_numbers_are_float32_rows_and_ints_begin_at_zero(self) -> None:
+        for actions in ("simplified", "box"):
+            env = example("mountain_car", actions=actions)
+            self.assertEqual(env.observation_space["velocity"], spaces.Box(-np.inf, np.inf, (1,), np.float32))
+            observation, _ = env.reset(seed=1)
+            self.assertTrue(env.observation_space.contains(observation))
+            twin = example("mountain_car")
+            self.assertAlmostEqual(observation["velocity"].item(), float(twin.reset(seed=1)[0]["velocity"]))
+        env = written("counters", actions="box", vectorized=True)
+        self.assertEqual(env.observation_space["count"].shape, (2,))
+        self.assertTrue(env.observation_space.contains(env.reset(seed=1)[0]))
+
+    def test_learners_act_by_them(self) -> None:
+        env = example("mountain_car", actions="box")
+        model = rddlc.CGP(env, seed=1).learn(2, evaluations=0)
+        observation, _ = env.reset(seed=1)
+        other = {name: value + np.float32(0.01) for name, value in observation.items()}
+        self.assertEqual(model.predict(observation)[0].shape, (1,))
+        self.assertEqual(model.predict(other)[0].shape, (1,))
+
+
 class SimplifiedActions(unittest.TestCase):
     def test_one_change_of_bools_is_discrete(self) -> None:
         env = example("network", actions="simplified")
@@ -58,7 +80,7 @@ class SimplifiedActions(unittest.TestCase):
         observation = env.step(action)[0]
         self.assertEqual(observation["shade"], 2)
         self.assertEqual([observation["count___a"], observation["count___b"]], [2, -1])
-        self.assertAlmostEqual(float(observation["filled"]), 0.25)
+        self.assertAlmostEqual(observation["filled"].item(), 0.25)
 
     def test_few_changes_are_picked_one_after_the_other(self) -> None:
         env = written("counters_two", actions="simplified")
@@ -76,7 +98,7 @@ class SimplifiedActions(unittest.TestCase):
             shown = env.step({"discrete": picks, "continuous": numbers})[0]
             self.assertEqual(shown["shade"], color)
             self.assertEqual([shown["count___a"], shown["count___b"]], counts)
-            self.assertAlmostEqual(float(shown["filled"]), filled)
+            self.assertAlmostEqual(shown["filled"].item(), filled)
 
     def test_refused_actions_change_nothing(self) -> None:
         env = written("counters", actions="simplified")
@@ -103,7 +125,7 @@ class Boxes(unittest.TestCase):
         shown = env.step(np.array([1, -1, 1, 0, -1], np.float32))[0]
         self.assertEqual(shown["shade"], 2)
         self.assertEqual([shown["count___a"], shown["count___b"]], [-1, 2])
-        self.assertEqual(float(shown["filled"]), 0)
+        self.assertEqual(shown["filled"].item(), 0)
 
     def test_squashed_numbers_keep_bounds_and_order(self) -> None:
         plan = plan_of(written("counters").problem)

@@ -87,6 +87,16 @@ class LegalActions(unittest.TestCase):
                             _, _, terminated, truncated, _ = env.step(action)  # refuses others
                             over = terminated or truncated
 
+    def test_one_of_many_has_to_be_taken(self) -> None:
+        roads = ", ".join(f"r{place}" for place in range(1, 41))
+        problem = problem_of_text(TRUCKS.replace("r1, r2, r3", roads))
+        for form in FORMS:
+            env = rddlc.make(problem, enforce_action_constraints=True, **form)
+            env.reset(seed=1)
+            env.action_space.seed(1)
+            for _ in range(5):
+                env.step(env.action_space.sample())  # refuses others
+
     def test_they_differ(self) -> None:
         """Nothing legal is left out."""
         env = rddlc.make(problem_of_text(TRUCKS))

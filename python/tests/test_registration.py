@@ -137,6 +137,17 @@ class Names(unittest.TestCase):
             self.assertEqual(made.returncode, status)
             self.assertIn(pattern, made.stdout + made.stderr)
 
+    @unittest.skipIf(sys.prefix == sys.base_prefix or not rddlc.problems(), "no virtual environment with rddlrepository")
+    def test_the_program_finds_the_repository_beside_its_python(self) -> None:
+        kept = {k: v for k, v in os.environ.items() if k not in ("RDDL_REPOSITORY", "VIRTUAL_ENV")}
+        made = subprocess.run(
+            [sys.executable, "-m", "rddlc", "list", "mountaincar"],
+            env=kept | {"PATH": str(Path(rddlc.__file__).parents[2] / "bin")},
+            capture_output=True,
+            text=True,
+        )
+        self.assertIn("MountainCar_ippc2023", made.stdout, made.stderr)
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -5,8 +5,10 @@
 #include <unistd.h>
 
 #include <exception>
+#include <future>
 #include <string>
 #include <system_error>
+#include <thread>
 #include <utility>
 
 namespace rddlc::workbench {
@@ -25,7 +27,9 @@ void BackgroundBuild::start() {
     process_ = ::getpid();
     stop_ = std::stop_source();
     try {
-        thread_ = std::make_unique<std::thread>([this, stop = stop_.get_token()] { run(stop); });
+        std::packaged_task<void()> task([this, stop = stop_.get_token()] { run(stop); });
+        ended_ = task.get_future();
+        std::thread(std::move(task)).detach();
     } catch (const std::system_error&) {
         settled_ = true;  // the system starts no more threads
     }
@@ -49,24 +53,14 @@ void BackgroundBuild::run(const std::stop_token& stop) {
 void BackgroundBuild::revive() {
     if (is_settled() || process_ == ::getpid()) return;
     const std::scoped_lock lock(mutex_);
-    abandon_thread();
     start();
 }
 
 void BackgroundBuild::stop() {
     const std::scoped_lock lock(mutex_);
     stop_.request_stop();
-    if (process_ == ::getpid()) {
-        if (thread_) thread_->join();
-        thread_.reset();
-    } else {
-        abandon_thread();
-    }
+    if (!is_settled() && process_ == ::getpid()) ended_.wait();
     settled_ = true;
-}
-
-void BackgroundBuild::abandon_thread() {
-    static_cast<void>(thread_.release());
 }
 
 }  // namespace rddlc::workbench

@@ -7,10 +7,10 @@
 
 #include <atomic>
 #include <functional>
+#include <future>
 #include <memory>
 #include <mutex>
 #include <stop_token>
-#include <thread>
 
 namespace rddlc::workbench {
 
@@ -41,8 +41,6 @@ class BackgroundBuild {
   private:
     void start();
     void run(const std::stop_token& stop);
-    // Forgets the thread of another process, which can be neither joined nor detached here.
-    void abandon_thread();
 
     Build build_;
     Report report_;
@@ -52,7 +50,9 @@ class BackgroundBuild {
     std::mutex mutex_;   // of all below
     pid_t process_ = 0;  // that has the thread
     std::stop_source stop_;
-    std::unique_ptr<std::thread> thread_;
+    // The end of the thread. It is detached, since the thread of a parent process can be neither
+    // joined nor detached later.
+    std::future<void> ended_;
 };
 
 }  // namespace rddlc::workbench

@@ -23,12 +23,11 @@ from ..environment import RDDLEnv
 from ..errors import Error
 from ..vector import RDDLVectorEnv
 from ..versions import AutoresetMode
-from .multi_input import MultiInput
 
 Indices = None | int | Iterable[int]
 
 
-def make(domain: Any, instance: Any = None, **options: Any) -> RDDLEnv | MultiInput:
+def make(domain: Any, instance: Any = None, **options: Any) -> RDDLEnv:
     """`rddlc.make` with flat observations, and actions that Stable-Baselines3 takes: simplified where
     these are Discrete, MultiDiscrete or a Box with bounds, else "box" (it takes no dictionaries of
     actions, and no numbers without bounds). Options go before that: observations="dict" is for
@@ -38,7 +37,7 @@ def make(domain: Any, instance: Any = None, **options: Any) -> RDDLEnv | MultiIn
     env = RDDLEnv(problem, **options)
     if not takes_actions(env.action_space):
         env = RDDLEnv(problem, **options | {"actions": "box"})
-    return MultiInput(env) if isinstance(env.observation_space, spaces.Dict) else env
+    return env
 
 
 def make_vec(domain: Any, instance: Any = None, num_envs: int = 1, **options: Any) -> VecMonitor:

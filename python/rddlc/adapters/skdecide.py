@@ -15,7 +15,6 @@ import time
 from pathlib import Path
 from typing import Any
 
-from gymnasium import Env, spaces
 from skdecide import Domain, ImplicitSpace, Space, TransitionOutcome, Value
 from skdecide.builders.domain import (
     DeterministicInitialized,
@@ -34,7 +33,6 @@ from ..errors import Error
 from ..problems import Problem
 from ..states import State
 from ..transitions import Outcome, Transitions
-from .multi_input import MultiInput
 
 COST_ERROR = 1e-9  # relative
 
@@ -90,10 +88,6 @@ class RDDLDomain(D):
             options["visualizer"] = visualizer
         mode = "human" if display_with_pygame else "rgb_array"
         self.env: RDDLEnv = make(domain, instance, **{"render_mode": mode, **options})
-        # Learners take no arrays of the shape ().
-        is_dict = isinstance(self.env.observation_space, spaces.Dict)
-        is_learned = is_dict and options.get("actions", "dict") != "dict"
-        self._learners: Env[Any, Any] = MultiInput(self.env) if is_learned else self.env
         self._movie = movie
         self._movies = None if movie_name is None else Path(movie_dir) / movie_name
         self._max_frames = whole("max_frames", max_frames, 1)
@@ -104,10 +98,10 @@ class RDDLDomain(D):
         self.env.save_gif(path)
 
     def _state_reset(self) -> Any:
-        return self._learners.reset()[0]
+        return self.env.reset()[0]
 
     def _state_step(self, action: Any) -> TransitionOutcome:
-        observation, reward, terminated, truncated, info = self._learners.step(action)
+        observation, reward, terminated, truncated, info = self.env.step(action)
         is_over = terminated or truncated
         if is_over and self._movie is not None:
             self.env.save_gif(self._movie)
@@ -122,7 +116,7 @@ class RDDLDomain(D):
         return GymSpace(self.env.action_space)
 
     def _get_observation_space_(self) -> Space[Any]:
-        return GymSpace(self._learners.observation_space)
+        return GymSpace(self.env.observation_space)
 
     def _render_from(self, memory: Any, **options: Any) -> Any:
         """The present state of the environment."""

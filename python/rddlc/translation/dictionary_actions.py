@@ -99,10 +99,18 @@ class SingleActions(DictionaryActions):
         self._named = NamedValues(model.actions, self._default_values, "action", ActionError)
         by_name = dict(zip((column.name for column in columns), self._default_values))
         self._default = self._defaults if lifted else by_name
+        self._lifted = lifted
         self.space = action_space(model, self._default, lifted=lifted)
 
     def default(self) -> dict[str, Any]:
         return self._default
+
+    def actions_of(self, records: Records) -> dict[str, Array]:
+        lifted = super().actions_of(records)
+        if self._lifted:
+            return lifted
+        columns = ((fluent.groundings, lifted[fluent.name].reshape(len(records), -1)) for fluent in self._fluents)
+        return {name: rows[:, place] for names, rows in columns for place, name in enumerate(names)}
 
     def _write(self, actions: Any, records: Records) -> None:
         values = self._named.values(actions)

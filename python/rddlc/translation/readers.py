@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import OrderedDict
 from typing import Any
 
 import numpy as np
@@ -41,6 +42,50 @@ def observation_reader(
         final = batch.final_values if by_values else grounded_view(batch.final_observations, fluents)
         return FlatReader(fluents, batch.observation_values, final, normalize=normalize)
     return dictionary_reader(fluents, batch.observations, batch.final_observations, lifted=lifted)
+
+
+class LearnersReader:
+    """Reads the dictionaries of another reader as learners take them ("MultiInputPolicy" of
+    Stable-Baselines3), and pyRDDLGym-rl gives them: numbers are float32, of the shape (1,) in place of (),
+    and ints with bounds are counted from 0."""
+
+    is_view = False
+
+    def __init__(self, reader: ObservationReader) -> None:
+        self._reader = reader
+        given: Any = reader.space
+        self._least = {
+            name: int(space.start) if isinstance(space, spaces.Discrete) else 0
+            for name, space in given.items()
+        }
+        self.space = spaces.Dict(OrderedDict((name, _learners_space(space)) for name, space in given.items()))
+
+    def read(self) -> dict[str, Any]:
+        return self._as_learners_take(self._reader.read())
+
+    def rows(self, *, copy: bool) -> dict[str, Any]:
+        return self._as_learners_take(self._reader.rows(copy=copy), -1)
+
+    def final_rows(self) -> dict[str, Any]:
+        return self._as_learners_take(self._reader.final_rows(), -1)
+
+    def values(self, observations: Any) -> Array:
+        return self._reader.values({name: observations[name] + least for name, least in self._least.items()})
+
+    def _as_learners_take(self, values: dict[str, Any], *rows: int) -> dict[str, Any]:
+        return {
+            name: values[name] - self._least[name]
+            if isinstance(space, spaces.Discrete)
+            else np.reshape(values[name], (*rows, *space.shape)).astype(np.float32)
+            for name, space in self.space.spaces.items()
+        }
+
+
+def _learners_space(space: Any) -> spaces.Space[Any]:
+    if isinstance(space, spaces.Discrete):
+        return spaces.Discrete(int(space.n))
+    lower, upper = (np.reshape(each, space.shape or (1,)) for each in (space.low, space.high))
+    return spaces.Box(lower.astype(np.float32), upper.astype(np.float32), dtype=np.float32)
 
 
 class GroundedReader:
