@@ -1,12 +1,14 @@
 // Sums over a row of bools in which the true ones alone count.
 //
 // One environment looks up which ones are true, 64 at a time, and visits no others. Packs of
-// environments visit each bool, as one of theirs may hold.
+// environments visit those that are true in one of theirs if the terms take long, else all.
 #pragma once
 
 #include <rddl/lanes/lane.hpp>
 #include <rddl/lanes/pack.hpp>
 #include <rddl/lanes/simd_moves.hpp>
+#include <rddl/values/bits.hpp>
+#include <rddl/values/bool_rows.hpp>
 #include <rddl/values/context.hpp>
 #include <rddl/values/ops.hpp>
 #include <rddl/values/pack_ops.hpp>
@@ -42,8 +44,12 @@ RDDL_INLINE std::int64_t count_true(const std::array<bool, n>& row) {
 }
 template <std::size_t n, int width>
 RDDL_INLINE Lanes<std::int64_t, width> count_true(const std::array<Mask<width>, n>& row) {
+    constexpr std::size_t last = n / 64 * 64;
     Lanes<std::int64_t, width> total{0};
-    for (const Mask<width>& mask : row) total = wrap_add(total, to_int(mask));
+    for (std::size_t first = 0; first < last; first += 64)
+        total = wrap_add(total, count_ones(bits_in_lanes<64>(row.data() + first)));
+    if constexpr (last < n)
+        total = wrap_add(total, count_ones(bits_in_lanes<int{n - last}>(row.data() + last)));
     return total;
 }
 
@@ -70,11 +76,21 @@ RDDL_INLINE T sum_over_true(const std::array<Mask<width>, n>& row, Body&& body) 
 template <class T, class L, std::size_t n, int width, class Body>
 RDDL_INLINE T sum_over_true(Context<L>& context, const std::array<Mask<width>, n>& row,
                             Body&& body) {
-    return sum<T>(static_cast<Index>(n), [&](Index i) {
-        return branch(
-            context, row[static_cast<std::size_t>(i)], [&] { return T(body(i)); },
-            [&] { return T{0}; });
-    });
+    constexpr std::size_t tested_at_once = 32;
+    T total{0};
+    const auto add = [&](std::size_t i) RDDL_INLINE_LAMBDA {
+        const T term = branch(
+            context, row[i], [&] { return T(body(static_cast<Index>(i))); }, [&] { return T{0}; });
+        total = detail::plus(total, term);
+    };
+    for (std::size_t first = 0; first < n; first += tested_at_once) {
+        const std::size_t end = std::min(n, first + tested_at_once);
+        Mask<width> some = row[first];
+        for (std::size_t i = first; i < end; ++i) some = some || row[i];
+        for (std::size_t i = first; any(some) && i < end; ++i)
+            if (any(row[i])) add(i);
+    }
+    return total;
 }
 
 }  // namespace rddl
