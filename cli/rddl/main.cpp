@@ -41,11 +41,11 @@ Command rddl_command() {
         print("{}", *explanation);
         return success;
     };
-    program.commands = {list_command(),  info_command(),   check_command(),    fmt_command(),
-                        lsp_command(), run_command(),   render_command(), evaluate_command(), compare_command(),
-                        train_command(), export_command(), plot_command(),     replay_command(),
-                        solve_command(), serve_command(),  play_command(),     bench_command(),
-                        verify_command()};
+    program.commands = {list_command(),     info_command(),    check_command(), fmt_command(),
+                        lsp_command(),      studio_command(),  run_command(),   render_command(),
+                        evaluate_command(), compare_command(), train_command(), export_command(),
+                        plot_command(),     replay_command(),  solve_command(), serve_command(),
+                        play_command(),     bench_command(),   verify_command()};
     return program;
 }
 

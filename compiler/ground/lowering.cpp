@@ -2,6 +2,7 @@
 #include "ground/lowering.hpp"
 
 #include "ground/codes.hpp"
+#include "ir/cost_model.hpp"
 #include "support/match.hpp"
 
 #include <fmt/format.h>
@@ -14,7 +15,7 @@ namespace {
 
 // The limit in operations (ir::Properties). Passes name values that are used several times; this is
 // for nested products, which would grow exponentially until then.
-constexpr double largest_repeated_cost = 200;
+constexpr double largest_repeated_cost = 10 * ir::elementary_cost;
 // Selects inside each other that a 'switch' becomes.
 constexpr std::size_t longest_chain = 512;
 

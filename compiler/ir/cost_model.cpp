@@ -192,7 +192,7 @@ double own_cost(const Program& program, const Node& node) {
         },
         [](const Apply& apply) { return cost_of(apply.op); }, [](const Select&) { return 1.0; },
         [&](const Reduce&) { return repetitions(program, node); },
-        [](const Sample&) { return draw_cost; },
+        [&](const Sample&) { return draw_cost + (node.type == Scalar::Real ? quantile_cost : 0); },
         [](const Discrete& discrete) {
             return draw_cost + static_cast<double>(discrete.weights.size());
         },
@@ -217,7 +217,7 @@ double cost_of_step(const Program& program) {
         cost.add_value(computation.value);
         return cost.total();
     };
-    double total = cost_of_computation(program.reward);
+    double total = step_cost + cost_of_computation(program.reward);
     for (const Definition& definition : program.step)
         total += BlockCost(program, definition.body).total();
     for (const auto* conditions : {&program.invariants, &program.terminations})

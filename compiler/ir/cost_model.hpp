@@ -11,13 +11,16 @@
 
 namespace rddlc::ir {
 
-// A Select of two branches of at most cheap_cost needs no branch; an elementary function, as exp,
-// is a polynomial of about ten terms and its reduction; a draw is a block of Philox and the
-// quantile.
+// Prices that fit measured time (benchmarks/cost_model.py). A Select of two branches of at most
+// cheap_cost needs no branch; an elementary function, as exp, is a polynomial of about ten terms and
+// its reduction; a draw is a block of Philox, and that of a real also a quantile; a step takes its
+// call, its random stream and its flags.
 inline constexpr double cheap_cost = 6;
-inline constexpr double division_cost = 4;
-inline constexpr double elementary_cost = 20;
+inline constexpr double division_cost = 6;
+inline constexpr double elementary_cost = 100;
 inline constexpr double draw_cost = 20;
+inline constexpr double quantile_cost = 160;
+inline constexpr double step_cost = 100;
 // Iterations that a loop over several objects makes at once: the doubles of an AVX2 register.
 inline constexpr double objects_at_once = 4;
 // The same where values are bools: some instructions take 64 of them from tables to words and back.

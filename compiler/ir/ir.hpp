@@ -173,7 +173,8 @@ struct Apply {
     std::optional<Place> place;  // exactly for operators that may fault
     bool operator==(const Apply&) const = default;
 };
-// What emitted code evaluates of a Select. Only what does no harm may be evaluated in vain.
+// The parts of a Select that emitted code evaluates. A branch that is not taken is evaluated only if
+// that does no harm.
 enum class Evaluated : std::uint8_t {
     Branch,    // the branch that is taken; in packs those that a lane takes
     PackBoth,  // the branch that is taken; in packs both

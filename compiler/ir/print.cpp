@@ -218,9 +218,8 @@ class Printer {
     // --------------------------------------------------------------------- statements
 
     void conditions(std::string_view name, const std::vector<Computation>& conditions) {
-        for (std::size_t index = 0; index < conditions.size(); ++index) {
+        for (std::size_t index = 0; index < conditions.size(); ++index)
             computation(fmt::format("{} {}", name, index), conditions[index]);
-        }
     }
 
     void computation(const std::string& name, const Computation& computation) {

@@ -31,10 +31,13 @@ class DictionaryReader {
             throw nb::python_error();
         record_ = static_cast<const std::byte*>(view.buf);
         PyBuffer_Release(&view);  // the memory stays where it is, as long as its owner
+        for (const NamedColumn& column : columns_) names_[std::get<0>(column)] = nb::none();
     }
 
     nb::dict read() const {
-        nb::dict values;
+        // A copy has room for all values.
+        const auto values = nb::steal<nb::dict>(PyDict_Copy(names_.ptr()));
+        if (!values.is_valid()) throw nb::python_error();
         for (const auto& [name, offset, stored, is_array] : columns_) {
             nb::object value = number(record_ + offset, stored.front());
             if (is_array) value = array_(value);
@@ -59,8 +62,9 @@ class DictionaryReader {
     nb::object owner_;  // of the record
     const std::byte* record_ = nullptr;
     std::vector<NamedColumn> columns_;
-    nb::callable
-        array_;  // numpy.array, which takes half the time without a type, and finds the same
+    nb::dict names_;  // without values
+    // numpy.array, which takes half the time without a type, and finds the same.
+    nb::callable array_;
 };
 
 }  // namespace

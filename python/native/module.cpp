@@ -9,6 +9,7 @@
 #include "native/row_writer.hpp"
 
 NB_MODULE(_native, module) {
+    nanobind::set_leak_warnings(false);  // what a program keeps until its end is no mistake
     module.doc() = "Simulators of RDDL problems, for the package rddlc.";
     rddlc::python::add_problem(module);
     rddlc::python::add_env_pool(module);

@@ -159,6 +159,11 @@ class RDDLEnv(ProblemProperties, gymnasium.Env[Any, Any]):
         self._spec = given
 
     @property
+    def vectorized(self) -> bool:
+        """Whether keys are fluents and values arrays; pyRDDLGym's agents ask for it."""
+        return self._forms["vectorized"]
+
+    @property
     def state(self) -> dict[str, Any]:
         """The true state in the form of dictionary observations, also where it is not observed."""
         record = np.zeros((1, self.model.state_size), np.uint8)

@@ -1,6 +1,6 @@
 """Steps a second of rddlc from Python, beside pyRDDLGym and the C++ engine, in one run:
 
-    python python/tests/benchmark.py [PROBLEM INSTANCE]
+    python python/tests/benchmark.py [PROBLEM INSTANCE]    default: a problem of one action, and one of 50
     python python/tests/benchmark.py --dictionaries [PROBLEM...]
 
 The second form steps the first instance of each problem of rddlrepository by dictionaries with all keys, as
@@ -29,6 +29,7 @@ import rddlc
 SECONDS, PARTS = 2.0, 10
 ENVIRONMENTS = 1024
 LEAST_RATIO = 100
+PROBLEMS = [["MountainCar_ippc2023", "1"], ["SysAdmin_MDP_ippc2011", "10"]]
 
 
 def rates_of(steppers: dict[str, Callable[[], int]]) -> dict[str, float]:
@@ -72,15 +73,15 @@ def of_pyrddlgym(problem: rddlc.Problem, action: Any) -> Callable[[], int]:
     return stepper(env, action)
 
 
-def of_batch(problem: rddlc.Problem, **options: Any) -> Callable[[], int]:
-    envs = rddlc.make_vec(problem, num_envs=ENVIRONMENTS, threads=1, **options)
+def of_batch(problem: rddlc.Problem, count: int = ENVIRONMENTS, **options: Any) -> Callable[[], int]:
+    envs = rddlc.make_vec(problem, num_envs=count, threads=1, **options)
     envs.action_space.seed(1)
     actions = envs.action_space.sample()
     envs.reset(seed=1)
 
     def step() -> int:
         envs.step(actions)
-        return ENVIRONMENTS
+        return count
 
     return step
 
@@ -140,15 +141,25 @@ def main() -> int:
     options = parser.parse_args()
     if options.dictionaries:
         return compare_dictionaries(options.problem)
-    options.problem = options.problem or ["MountainCar_ippc2023", "1"]
-    problem = rddlc.Problem(*options.problem, engine="compiled")
+    for words in [options.problem] if options.problem else PROBLEMS:
+        compare(words, options.json)
+    return 0
+
+
+def compare(words: list[str], as_json: bool) -> None:
+    problem = rddlc.Problem(*words, engine="compiled")
+    env = rddlc.make(problem)
+    env.reset(seed=1)
+    env.action_space.seed(1)
+    action = env.action_space.sample()  # all keys
     learning = {"observations": "flat", "actions": "simplified"}
     rates = rates_of(
         {
-            "pyRDDLGym": of_pyrddlgym(problem, {}),
-            "rddlc.make": of_single(problem),
+            "pyRDDLGym": of_pyrddlgym(problem, action),
+            "rddlc.make": stepper(env, action),
             "rddlc.make, vectorized": of_single(problem, vectorized=True),
             "rddlc.make, flat": of_single(problem, **learning),
+            "rddlc.make_vec of 1": of_batch(problem, 1),
         }
     ) | rates_of(
         {
@@ -157,16 +168,15 @@ def main() -> int:
             "rddlc.make_vec, copy=False": of_batch(problem, copy=False),
         }
     )
-    make_seconds = seconds_of_make(options.problem)
-    if options.json:
+    make_seconds = seconds_of_make(words)
+    if as_json:
         print(json.dumps({"steps_per_second": rates, "make_seconds": make_seconds}))
-        return 0
-    print(f"{problem.name}; make from the cache: {make_seconds * 1e3:.0f} ms")
+        return
+    print(f"{problem.name}, {len(action)} action values; make from the cache: {make_seconds * 1e3:.0f} ms")
     for name, each in rates.items():
         base = "C++ batch" if "vec," in name or name.endswith("vec") else "pyRDDLGym"
         share = "" if name == base else f"{each / rates[base]:10.2f} of {base}"
         print(f"{name:28}{each:16,.0f} steps/s{share}")
-    return 0
 
 
 if __name__ == "__main__":

@@ -8,7 +8,7 @@ import warnings
 import numpy as np
 import pyRDDLGym
 from pyRDDLGym.core.debug.exception import RDDLActionPreconditionNotSatisfiedError
-from pyRDDLGym.core.policy import RandomAgent
+from pyRDDLGym.core.policy import NoOpAgent, RandomAgent
 
 import rddlc
 from rddlc.backend import RDDLSimulator
@@ -69,6 +69,18 @@ class Backend(unittest.TestCase):
         ours.step({"action": 0.5})
         with self.assertRaises(RDDLActionPreconditionNotSatisfiedError):
             ours.step({"action": 2.0})
+
+
+class Agents(unittest.TestCase):
+    def test_they_act_in_environments_of_rddlc(self) -> None:
+        for name, kind in (
+            ("MountainCar_ippc2023", NoOpAgent),
+            ("HVAC_ippc2023", NoOpAgent),
+            ("Wildfire_MDP_ippc2014", RandomAgent),
+        ):
+            env = rddlc.make(name, 1, engine="interpreter")
+            found = kind(env.action_space, env.max_allowed_actions).evaluate(env, episodes=2, seed=1)
+            self.assertTrue(np.isfinite(found["mean"]))
 
 
 if __name__ == "__main__":

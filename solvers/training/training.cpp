@@ -222,6 +222,7 @@ class Training {
             std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch())
                 .count();
         log_.add(trainee_.steps(), elapsed(), now, row);
+        if (options_.see_row) options_.see_row(trainee_.steps(), elapsed(), row);
     }
 
     // Shows one line on a terminal, several times a second; elsewhere a line every five seconds.

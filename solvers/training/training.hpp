@@ -60,7 +60,9 @@ struct TrainingOptions {
     std::int64_t memory_limit = default_memory_limit;  // bytes of a checkpoint that is read
     bool quiet = false;
     std::function<bool()> stops;  // Ctrl-C; may be empty
-    Ranks ranks;                  // which train together; the first one writes and reports
+    // Sees each row of the log as it is added, with the steps and seconds so far; may be empty.
+    std::function<void(std::int64_t steps, double seconds, const Row&)> see_row = {};
+    Ranks ranks;  // which train together; the first one writes and reports
 };
 
 struct TrainingResult {

@@ -11,7 +11,7 @@ class CostModelTest : public testing::Test {
   protected:
     double cost_of(std::vector<Definition> step) {
         w.program.step = std::move(step);
-        return cost_of_step(w.program);
+        return cost_of_step(w.program) - step_cost;
     }
     NodeId is_high() {
         return w.apply(Operator::Greater, w.apply(Operator::Multiply, w.load(w.level), w.real(1.5)),

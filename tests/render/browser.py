@@ -13,7 +13,7 @@ def find_browser() -> str | None:
 
 
 class Browser:
-    def __init__(self) -> None:
+    def __init__(self, *arguments: str) -> None:
         self.profile = tempfile.TemporaryDirectory(prefix="rddlc-browser-", ignore_cleanup_errors=True)
         from_us, self.to_browser = os.pipe()
         self.from_browser, from_browser = os.pipe()
@@ -27,7 +27,7 @@ class Browser:
 
         self.process = subprocess.Popen(
             [find_browser(), "--headless=new", "--no-sandbox", "--disable-gpu", "--remote-debugging-pipe",
-             "--disable-dev-shm-usage", "--no-first-run", f"--user-data-dir={self.profile.name}", "about:blank"],
+             "--disable-dev-shm-usage", "--no-first-run", f"--user-data-dir={self.profile.name}", *arguments, "about:blank"],
             stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
             close_fds=False, preexec_fn=connect)
         os.close(from_us)

@@ -62,10 +62,11 @@ class PlaceFinder {
         }
     }
 
-    // `distance` tokens before the word; the one directly before is 1.
+    // `distance` tokens before the word; the one directly before is 1. Empty for 0 and beyond the
+    // section.
     std::string_view before(std::size_t distance = 1) const {
-        return distance <= before_.size() - first_ ? before_[before_.size() - distance]->text
-                                                   : std::string_view();
+        const bool is_there = distance > 0 && distance <= before_.size() - first_;
+        return is_there ? before_[before_.size() - distance]->text : std::string_view();
     }
 
     bool begins_line() const {
@@ -157,7 +158,8 @@ class PlaceFinder {
         return commas;
     }
 
-    // The distance of the first token of the item: behind the section's '{' or a ';'.
+    // The distance of the first token of the item: behind the section's '{' or a ';'. 0 if the
+    // section has not begun.
     std::size_t item_begin() const {
         std::size_t depth = 0;
         std::size_t distance = 1;
@@ -168,7 +170,8 @@ class PlaceFinder {
             if (is_opener(mark) && depth > 0) --depth;
         }
         const bool is_first = before(distance).empty();
-        return is_first ? distance - 3 : distance - 1;  // 'keyword {' stands before the first one
+        const std::size_t others = is_first ? 3 : 1;  // 'keyword {' stands before the first one
+        return distance > others ? distance - others : 0;
     }
 
     void find_in_declaration() {

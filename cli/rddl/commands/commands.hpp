@@ -15,6 +15,7 @@ Command info_command();
 Command check_command();
 Command fmt_command();
 Command lsp_command();
+Command studio_command();
 Command run_command();
 Command evaluate_command();
 Command compare_command();

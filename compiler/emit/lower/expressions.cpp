@@ -26,7 +26,7 @@ bool is_int_constant(const ir::Node& node) {
     return node.type == ir::Scalar::Int && std::holds_alternative<ir::Constant>(node.form);
 }
 
-// Of a real, without its int.
+// The function that rounds a real without making an int of it.
 std::string_view rounding_function(Operator op) {
     if (op == Operator::Round) return "round_as_real";
     return op == Operator::Floor ? "floor_as_real" : "ceil_as_real";

@@ -1,6 +1,8 @@
 #include "passes/sharing/share_across_definitions.hpp"
 
 #include "ir/call.hpp"
+#include "ir/cost_model.hpp"
+#include "ir/cost_model.hpp"
 #include "ir/fill_table.hpp"
 #include "ir/rewrite.hpp"
 #include "support/match.hpp"
@@ -18,7 +20,7 @@ namespace {
 // be computed although no branch needs them.
 constexpr double worth_an_element = 15;
 constexpr double cost_of_shared_element = 2;
-constexpr double cheap_enough_to_try = 64;
+constexpr double cheap_enough_to_try = 3 * ir::elementary_cost;
 constexpr double most_shared_elements = 1e6;
 
 // How one CPF, or the reward, uses a node.

@@ -58,7 +58,8 @@ class LearnersReader:
             name: int(space.start) if isinstance(space, spaces.Discrete) else 0
             for name, space in given.items()
         }
-        self.space = spaces.Dict(OrderedDict((name, _learners_space(space)) for name, space in given.items()))
+        self._entries: dict[str, Any] = {name: _learners_space(space) for name, space in given.items()}
+        self.space = spaces.Dict(OrderedDict(self._entries))
 
     def read(self) -> dict[str, Any]:
         return self._as_learners_take(self._reader.read())
@@ -77,7 +78,7 @@ class LearnersReader:
             name: values[name] - self._least[name]
             if isinstance(space, spaces.Discrete)
             else np.reshape(values[name], (*rows, *space.shape)).astype(np.float32)
-            for name, space in self.space.spaces.items()
+            for name, space in self._entries.items()
         }
 
 

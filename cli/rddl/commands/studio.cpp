@@ -1,0 +1,98 @@
+// rddl studio: a page on which problems are written and tried.
+#include "commands/commands.hpp"
+#include "commands/options.hpp"
+#include "studio/server.hpp"
+#include "support/program.hpp"
+#include "terminal/interrupt.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <spawn.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <memory>
+#include <string>
+
+extern char** environ;
+
+namespace rddlc::cli {
+
+namespace {
+
+struct StudioArguments {
+    ProblemArguments problem;
+    LoadOptions load;
+    studio::ServerOptions server;
+    bool shows_browser = true;
+};
+
+studio::OpenedProblem opened_problem(const ProblemArguments& arguments) {
+    if (arguments.first.empty()) {
+        studio::OpenedProblem problem = studio::first_problem();
+        problem.files = arguments.with_options(problem.files);
+        return problem;
+    }
+    studio::OpenedProblem problem = studio::open_problem(arguments.files());
+    problem.can_save = is_path(arguments.first);  // else it is of rddlrepository
+    return problem;
+}
+
+// The browser of the desktop, if there is one. Its messages would stand among ours.
+void show_in_browser(const std::string& address) {
+    if (!std::getenv("DISPLAY") && !std::getenv("WAYLAND_DISPLAY")) return;
+    posix_spawn_file_actions_t files;
+    posix_spawn_file_actions_init(&files);
+    for (const int descriptor : {STDOUT_FILENO, STDERR_FILENO})
+        posix_spawn_file_actions_addopen(&files, descriptor, "/dev/null", O_WRONLY, 0);
+    std::string program = "xdg-open", argument = address;
+    char* words[] = {program.data(), argument.data(), nullptr};
+    pid_t process = 0;
+    posix_spawnp(&process, "xdg-open", &files, nullptr, words, environ);
+    posix_spawn_file_actions_destroy(&files);
+}
+
+ExitStatus serve_studio(const StudioArguments& arguments) {
+    studio::Studio room(opened_problem(arguments.problem), {arguments.load});
+    studio::StudioServer server(room, arguments.server);
+    print("{}\n", server.address());
+    std::fflush(stdout);
+    tell("rddl studio: open this address in a browser of this machine; Ctrl-C ends it\n");
+    if (arguments.shows_browser) show_in_browser(server.address());
+    const bool ended = server.run(is_interrupted);
+    // A compilation that takes minutes cannot be stopped, and holds nothing that would be lost.
+    if (!ended) _exit(interrupted_status());
+    return interrupted_status();
+}
+
+}  // namespace
+
+Command studio_command() {
+    const auto options = std::make_shared<StudioArguments>();
+    Command command;
+    command.name = "studio";
+    command.summary = "Write and try a problem on a page in the browser";
+    command.details =
+        "Prints the address of the page, which only this machine reaches, with a secret of this "
+        "run "
+        "in it.\n"
+        "Without a problem it begins with a small one. docs/studio.md describes the page.\n\n"
+        "Examples:\n"
+        "  rddl studio\n"
+        "  rddl studio domain.rddl instance.rddl\n"
+        "  rddl studio MountainCar_ippc2023 1 --no-browser --port 8000";
+    add_problem_arguments(command, options->problem, false);
+    add_number_option<int>(command, "--port", "PORT",
+                           "Port; 0: one that is free (7334, or one that is free if that is taken)",
+                           options->server.port, 0, 65535);
+    add_flag(command, "--no-browser", "Do not open the page in the browser of the desktop",
+             [options](const std::string&) { options->shows_browser = false; });
+    add_engine_options(command, options->load);
+    command.run = [options] {
+        return serve_studio(*options);
+    };
+    return command;
+}
+
+}  // namespace rddlc::cli

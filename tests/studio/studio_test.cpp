@@ -1,0 +1,313 @@
+// Requests and their answers, without HTTP.
+#include "studio/studio.hpp"
+
+#include "studio/drawing.hpp"
+#include "studio/training.hpp"
+#include "support/failure.hpp"
+#include "texts.hpp"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <chrono>
+#include <filesystem>
+#include <string>
+#include <thread>
+
+namespace rddlc::studio {
+namespace {
+
+using nlohmann::json;
+
+class StudioTest : public testing::Test {
+  protected:
+    json ask(const std::string& request, json wish, int status = 200) {
+        wish.emplace("tab", "one");
+        const Reply reply = studio.answer(request, wish.dump());
+        EXPECT_EQ(reply.status, status) << request << ": " << reply.body;
+        return json::parse(reply.body);
+    }
+    json load(const std::string& domain = tanks_domain) {
+        return ask("load", {{"player", "p"}, {"domain", domain}, {"instance", tanks_instance}});
+    }
+    json news(std::size_t since = 0, std::uint64_t branch = 0) {
+        return ask("news", {{"player", "p"}, {"since", since}, {"branch", branch}});
+    }
+    json finished_news() {
+        for (;;) {
+            const json found = news();
+            if (found["run"].is_null() || found["run"]["state"] != "running") return found;
+            std::this_thread::sleep_for(std::chrono::milliseconds(5));
+        }
+    }
+    json finished_job(const std::string& name) {
+        for (;;) {
+            const json found = ask("job", {{"job", name}});
+            if (found["state"] != "running") return found;
+            std::this_thread::sleep_for(std::chrono::milliseconds(5));
+        }
+    }
+
+    static StudioOptions options() {
+        StudioOptions options;
+        options.load.engine = workbench::Engine::Interpreter;
+        return options;
+    }
+
+    Studio studio{tanks(), options()};
+};
+
+TEST_F(StudioTest, OpensTheProblem) {
+    const json opened = ask("open", json::object());
+    EXPECT_EQ(opened["domain"], tanks_domain);
+    EXPECT_EQ(opened["domain_name"], "domain.rddl");
+    EXPECT_EQ(opened["can_save"], false);
+    EXPECT_GT(opened["planners"].size(), 1u);
+}
+
+TEST_F(StudioTest, FirstProblemHasNoDiagnostics) {
+    const OpenedProblem first = first_problem();
+    const json answer =
+        ask("language",
+            {{"messages",
+              json::array(
+                  {{{"jsonrpc", "2.0"},
+                    {"method", "textDocument/didOpen"},
+                    {"params",
+                     {{"textDocument",
+                       {{"uri", "studio:/domain.rddl"}, {"version", 1}, {"text", first.domain}}}}}},
+                   {{"jsonrpc", "2.0"},
+                    {"method", "textDocument/didOpen"},
+                    {"params",
+                     {{"textDocument",
+                       {{"uri", "studio:/instance.rddl"},
+                        {"version", 1},
+                        {"text", first.instance}}}}}}})}});
+    ASSERT_EQ(answer["messages"].size(), 2u);
+    for (const json& message : answer["messages"])
+        EXPECT_EQ(message["params"]["diagnostics"], json::array()) << message;
+}
+
+TEST_F(StudioTest, DiagnosticsAreTheLanguageServers) {
+    std::string broken = tanks_domain;
+    broken.replace(broken.find("water(?t) - release"), 5, "watr");
+    const json answer =
+        ask("language",
+            {{"messages",
+              json::array(
+                  {{{"jsonrpc", "2.0"},
+                    {"method", "textDocument/didOpen"},
+                    {"params",
+                     {{"textDocument",
+                       {{"uri", "studio:/domain.rddl"}, {"version", 1}, {"text", broken}}}}}}})}});
+    const json& diagnostic = answer["messages"][0]["params"]["diagnostics"][0];
+    EXPECT_EQ(diagnostic["code"], "E0201");
+    EXPECT_EQ(diagnostic["range"]["start"]["line"], 8);
+    EXPECT_NE(diagnostic["message"].get<std::string>().find("did you mean 'water'"),
+              std::string::npos);
+}
+
+TEST_F(StudioTest, LoadDescribesTheActions) {
+    const json problem = load()["problem"];
+    EXPECT_EQ(problem["horizon"], 20);
+    EXPECT_EQ(problem["max_nondef_actions"], 2);
+    EXPECT_EQ(problem["has_policy_block"], true);
+    ASSERT_EQ(problem["actions"].size(), 3u);
+    EXPECT_EQ(problem["actions"][0]["name"], "release___a");
+    EXPECT_EQ(problem["actions"][2]["type"], "bool");
+}
+
+TEST_F(StudioTest, TextsWithErrorsAreRefusedWithTheirPlaces) {
+    const json answer =
+        ask("load", {{"player", "p"}, {"domain", "domain d {"}, {"instance", tanks_instance}}, 422);
+    EXPECT_NE(answer["error"].get<std::string>().find("domain.rddl:1:"), std::string::npos);
+    ask("news", {{"player", "p"}}, 422);  // nothing was loaded
+}
+
+TEST_F(StudioTest, StepsByHandAndGoesBack) {
+    load();
+    EXPECT_EQ(ask("step", {{"player", "p"}, {"action", {{"release___a", 2.0}}}}), json::object());
+    ask("step", {{"player", "p"}, {"action", json::object()}});
+    const json before = news();
+    EXPECT_EQ(before["now"], 2);
+    ask("go_to", {{"player", "p"}, {"step", 1}});
+    EXPECT_EQ(news()["now"], 1);
+    EXPECT_EQ(news()["count"], 3);  // until another action is taken
+    ask("step", {{"player", "p"}, {"action", {{"alarm", true}}}});
+    const json after = news();
+    EXPECT_NE(after["branch"], before["branch"]);
+    EXPECT_EQ(after["moments"][1]["state"], before["moments"][1]["state"]);
+    EXPECT_EQ(after["moments"][1]["by"], "you");
+    // The same luck: the alarm costs 1 and changes nothing else.
+    EXPECT_EQ(after["moments"][2]["state"], before["moments"][2]["state"]);
+    EXPECT_EQ(after["moments"][1]["reward"].get<double>() + 1,
+              before["moments"][1]["reward"].get<double>());
+}
+
+TEST_F(StudioTest, IllegalActionsAreTakenOnlyByThoseWhoInsist) {
+    load();
+    const json action = {{"release___a", 1000.0}};
+    const json refused = ask("step", {{"player", "p"}, {"action", action}});
+    EXPECT_NE(refused["violation"], "");
+    EXPECT_EQ(news()["now"], 0);
+    EXPECT_EQ(ask("step", {{"player", "p"}, {"action", action}, {"insists", true}}),
+              json::object());
+    EXPECT_NE(news()["moments"][0]["warning"], "");
+}
+
+TEST_F(StudioTest, RunsPolicies) {
+    load();
+    ask("run", {{"player", "p"}, {"policy", "random"}, {"steps", 5}});
+    EXPECT_EQ(finished_news()["now"], 5);
+    ask("run", {{"player", "p"}, {"policy", "rddl"}});
+    const json all = finished_news();
+    EXPECT_EQ(all["count"], 21);
+    EXPECT_EQ(all["moments"][20]["ended"], json::array({"horizon"}));
+    EXPECT_EQ(all["moments"][4]["by"], "random");
+    EXPECT_EQ(all["moments"][5]["by"], "rddl");
+    // Only what is new is sent, and the last moment that is known.
+    EXPECT_EQ(news(20, all["branch"])["first"], 19);
+    ask("run", {{"player", "p"}, {"policy", "random"}}, 422);  // the episode is over
+    ask("go_to", {{"player", "p"}, {"step", 0}});
+    ask("run", {{"player", "p"}, {"policy", "no_such_file.json"}});
+    EXPECT_EQ(finished_news()["run"]["state"], "failed");
+    EXPECT_NE(ask("advice", {{"player", "p"}, {"policy", "rddl"}, {"step", 3}})["action"],
+              json::object());
+}
+
+TEST_F(StudioTest, LongRunsCanBeStopped) {
+    load();
+    ask("run", {{"player", "p"}, {"policy", "plan:cem,seconds=100"}});
+    const auto begin = std::chrono::steady_clock::now();
+    ask("stop", {{"player", "p"}});
+    EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(5));
+    EXPECT_EQ(news()["run"]["state"], "stopped");
+}
+
+TEST_F(StudioTest, PicturesArePngOrRefused) {
+    const json problem = load()["problem"];
+    const json wish = {{"tab", "one"}, {"player", "p"}, {"step", 0}, {"visualizer", "auto"}};
+    const Reply reply = studio.answer("picture", wish.dump());
+    const bool draws = !problem["visualizers"].empty();
+    EXPECT_EQ(reply.status, draws ? 200 : 422);
+    if (draws) {
+        EXPECT_EQ(reply.body.substr(0, 4), "\x89PNG");
+    }
+    json wrong = wish;
+    wrong["step"] = 7;
+    EXPECT_EQ(studio.answer("picture", wrong.dump()).status, 422);
+    wrong = wish;
+    wrong["visualizer"] = "no such";
+    EXPECT_EQ(studio.answer("picture", wrong.dump()).status, 422);
+}
+
+TEST_F(StudioTest, ComparesWithPairedLuck) {
+    json wish = {{"domain", tanks_domain}, {"instance", tanks_instance},
+                 {"first", "noop"},        {"second", "rddl"},
+                 {"episodes", 20},         {"seed", 3}};
+    ask("compare", wish);
+    const json status = finished_job("compare");
+    ASSERT_EQ(status["state"], "done") << status;
+    // The policy block does nothing but raise the alarm from its fourth decision on, and the luck
+    // is the same: each of the last 17 steps costs 1.
+    EXPECT_NEAR(status["result"]["difference"]["mean"].get<double>(), -17, 1e-9);
+    EXPECT_NEAR(status["result"]["difference"]["half_width_95"].get<double>(), 0, 1e-9);
+    EXPECT_EQ(status["result"]["pairs"], 20);
+    wish["first"] = "nothing";
+    ask("compare", wish);
+    EXPECT_EQ(finished_job("compare")["state"], "failed");
+}
+
+TEST_F(StudioTest, TrainsAndStops) {
+    const std::filesystem::path before = std::filesystem::current_path();
+    const std::filesystem::path folder =
+        std::filesystem::path(testing::TempDir()) / "rddlc_studio_test";
+    std::filesystem::remove_all(folder);
+    std::filesystem::create_directories(folder);
+    std::filesystem::current_path(folder);
+    json wish = {{"domain", tanks_domain},
+                 {"instance", tanks_instance},
+                 {"solver", "cgp"},
+                 {"seconds", 600},
+                 {"options", {"gens=2", "episodes=1"}}};
+    ask("train", wish);
+    const json status = finished_job("train");
+    EXPECT_EQ(status["state"], "done") << status;
+    EXPECT_GE(status["progress"]["steps"].size(), 2u);
+    EXPECT_EQ(status["progress"]["steps"].size(), status["progress"]["evaluation"].size());
+    EXPECT_EQ(status["result"]["folder"], "runs/i_cgp_0");
+    load();
+    ask("run", {{"player", "p"}, {"policy", "runs/i_cgp_0"}});
+    EXPECT_EQ(finished_news()["run"]["state"], "done");
+    // The next run has a folder of its own; a stop ends it soon.
+    wish["options"] = json::array();
+    ask("train", wish);
+    ask("stop", {{"job", "train"}});
+    EXPECT_EQ(finished_job("train")["state"], "stopped");
+    wish["options"] = {"genz=2"};
+    EXPECT_NE(ask("train", wish, 422)["error"].get<std::string>().find("gens"), std::string::npos);
+    wish["solver"] = "dqn";
+    ask("train", wish, 422);
+    std::filesystem::current_path(before);
+}
+
+TEST_F(StudioTest, TabsAreIndependent) {
+    load();
+    ask("step", {{"player", "p"}, {"action", json::object()}});
+    ask("news", {{"player", "p"}, {"tab", "other"}}, 422);
+    ask("load", {{"player", "p"},
+                 {"tab", "other"},
+                 {"domain", tanks_domain},
+                 {"instance", tanks_instance}});
+    EXPECT_EQ(news()["now"], 1);
+    EXPECT_EQ(ask("job", {{"job", "compare"}, {"tab", "other"}})["state"], "absent");
+}
+
+TEST_F(StudioTest, WrongRequestsAreRefusedAndHarmless) {
+    for (const char* const body :
+         {"", "{", "[]", "3", "{}", R"({"tab":3})", R"({"tab":""})", "\xff"})
+        EXPECT_NE(studio.answer("open", body).status, 200) << body;
+    load();
+    const json player = {{"player", "p"}};
+    const auto with = [&](const char* name, const json& value) {
+        json wish = player;
+        wish[name] = value;
+        return wish;
+    };
+    ask("no_such_request", player, 404);
+    ask("step", player, 400);
+    ask("step", with("action", 3), 422);
+    ask("step", with("action", {{"release___a", "much"}}), 422);
+    for (const json& step : {json(-1), json(0.5), json("0"), json(1e300), json(5)})
+        ask("go_to", with("step", step), 422);
+    ask("run", with("policy", "plan:nothing"), 422);
+    ask("run", with("policy", 3), 400);
+    ask("news", with("since", -1), 422);
+    ask("language", with("messages", json::array({3, nullptr, {{"method", "x"}}})), 200);
+    EXPECT_EQ(news()["now"], 0);
+}
+
+TEST(SavedTextsTest, FilesAreWrittenOnlyWhereNothingIsLost) {
+    const std::filesystem::path folder =
+        std::filesystem::path(testing::TempDir()) / "rddlc_studio_files";
+    std::filesystem::remove_all(folder);
+    std::filesystem::create_directories(folder);
+    UsedFiles used;
+    write_file(folder / "domain.rddl", tanks_domain, used);
+    write_file(folder / "instance.rddl", tanks_instance, used);
+    workbench::ProblemFiles files;
+    files.domain = folder / "domain.rddl";
+    files.instance = folder / "instance.rddl";
+    const OpenedProblem opened = open_problem(files);
+    const Texts read{opened.domain, opened.instance};
+    save_texts(opened, {"new", tanks_instance}, read, false);
+    EXPECT_EQ(read_file(files.domain), "new");
+    EXPECT_THROW(save_texts(opened, {"newer", tanks_instance}, read, false), Failure);
+    EXPECT_EQ(read_file(files.domain), "new");
+    save_texts(opened, {"newer", tanks_instance}, read, true);
+    EXPECT_EQ(read_file(files.domain), "newer");
+    EXPECT_THROW(save_texts(tanks(), {"", ""}, {}, true), Failure);  // a copy
+}
+
+}  // namespace
+}  // namespace rddlc::studio

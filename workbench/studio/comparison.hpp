@@ -1,0 +1,24 @@
+// Two policies with the same luck: episode e of both draws the same random numbers.
+#pragma once
+
+#include "studio/edited_problem.hpp"
+#include "studio/job.hpp"
+
+#include <array>
+#include <cstdint>
+#include <string>
+
+namespace rddlc::studio {
+
+struct ComparisonOptions {
+    std::array<std::string, 2> policies;
+    std::int64_t episodes = 100;
+    std::uint64_t seed = 0;
+    std::int64_t horizon = 0;  // steps; 0: the instance's
+};
+
+// The returns of both policies, and the mean difference (second minus first) of the episodes with
+// its 95 % confidence interval. Reports which policy is at work and which part is done.
+Json compare(Job& job, const workbench::LoadedProblem& problem, const ComparisonOptions& options);
+
+}  // namespace rddlc::studio

@@ -1,0 +1,102 @@
+// Requests to the program behind the page.
+
+// The secret of the address. It is only sent in a header, which other pages cannot set.
+const token = location.hash.slice(1);
+
+// The program refuses a request, and says why.
+export class Refused extends Error {
+  constructor(message, hint) {
+    super(hint ? `${message}; ${hint}` : message);
+  }
+}
+// The program does not answer: it has ended.
+export class Gone extends Error {}
+
+// Tabs have episodes and drafts of their own. The name outlives a reload. A tab that was duplicated
+// has the name of another one that is alive, and takes a new one.
+const nameOfLock = (name) => `rddl-studio/${name}`;
+
+function hold(name) {
+  if (!navigator.locks) return Promise.resolve(true);
+  return new Promise((tell) => {
+    navigator.locks.request(nameOfLock(name), { ifAvailable: true }, (lock) => {
+      tell(lock !== null);
+      return lock && new Promise(() => {});  // for as long as the tab lives
+    });
+  });
+}
+
+// The page that is reloaded may hold its lock a moment longer.
+async function chooseName() {
+  const pause = () => new Promise((resolve) => setTimeout(resolve, 50));
+  const before = sessionStorage.getItem("rddl-tab");
+  for (let tries = 0; before && tries < 6; ++tries) {
+    if (await hold(before)) return before;
+    await pause();
+  }
+  const name = Array.from(crypto.getRandomValues(new Uint8Array(12)), (byte) => byte.toString(16).padStart(2, "0")).join("");
+  sessionStorage.setItem("rddl-tab", name);
+  await hold(name);
+  return name;
+}
+export const tab = await chooseName();
+
+export async function isAlive(name) {
+  if (!navigator.locks) return false;
+  const { held } = await navigator.locks.query();
+  return held.some((lock) => lock.name === nameOfLock(name));
+}
+
+// Called with whether the program answers, and whether it knows this page.
+let watcher = () => {};
+export function watch(callback) {
+  watcher = callback;
+}
+
+export async function ask(request, wish = {}, { binary = false } = {}) {
+  let response;
+  try {
+    response = await fetch(`/api/${request}`, {
+      method: "POST",
+      cache: "no-store",
+      headers: { "Content-Type": "application/json", "X-Rddl-Token": token },
+      body: JSON.stringify({ ...wish, tab }),
+    });
+  } catch {
+    watcher("gone");
+    throw new Gone("'rddl studio' does not answer");
+  }
+  watcher(response.status === 403 ? "unknown" : "alive");
+  if (!response.ok) {
+    const { error, hint } = await response.json().catch(() => ({ error: `the answer is ${response.status}` }));
+    throw new Refused(error, hint);
+  }
+  return binary ? response.blob() : response.json();
+}
+
+// Calls `step` again and again, `pause` milliseconds apart, until it returns false.
+export async function poll(step, pause) {
+  for (;;) {
+    let goesOn = true;
+    try {
+      goesOn = await step();
+    } catch (error) {
+      if (!(error instanceof Gone)) throw error;  // else it may come back
+    }
+    if (!goesOn) return;
+    await new Promise((resolve) => setTimeout(resolve, pause));
+  }
+}
+
+export const byId = (id) => document.getElementById(id);
+export function make(tag, properties = {}, ...children) {
+  const element = Object.assign(document.createElement(tag), properties);
+  element.append(...children);
+  return element;
+}
+
+// A number in about five digits.
+export function shown(value) {
+  if (typeof value !== "number" || Number.isInteger(value)) return String(value);
+  return String(Number(value.toPrecision(5)));
+}

@@ -1,0 +1,315 @@
+#include "studio/tab.hpp"
+
+#include "learning/learned_policy.hpp"
+#include "lsp/reference.hpp"
+#include "planners/planner/planner_policy.hpp"
+#include "studio/comparison.hpp"
+#include "studio/training.hpp"
+#include "support/failure.hpp"
+#include "support/json_text.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace rddlc::studio {
+
+using namespace workbench;
+using Wish = nlohmann::json;
+
+namespace {
+
+Reply reply(const Json& json) {
+    return {.body = json_line(json)};
+}
+
+std::string text_in(const Wish& wish, const char* name, const std::string& otherwise) {
+    return wish.contains(name) ? wish.at(name).get<std::string>() : otherwise;
+}
+
+template <class Number>
+Number number_in(const Wish& wish, const char* name, Number otherwise, Number least, Number most) {
+    if (!wish.contains(name)) return otherwise;
+    const Wish& value = wish.at(name);
+    const bool is_whole = value.is_number_integer() || std::is_floating_point_v<Number>;
+    if (!value.is_number() || !is_whole || value.get<double>() < static_cast<double>(least) ||
+        value.get<double>() > static_cast<double>(most))
+        throw Failure(fmt::format("'{}' is not a number from {} to {}", name, least, most));
+    return value.get<Number>();
+}
+
+std::uint64_t seed_in(const Wish& wish) {
+    constexpr std::uint64_t most = std::uint64_t{1} << 53;  // that JavaScript counts
+    return number_in<std::uint64_t>(wish, "seed", 0, 0, most);
+}
+
+constexpr std::int64_t longest_episode = 10'000'000;
+
+std::int64_t horizon_in(const Wish& wish) {
+    return number_in<std::int64_t>(wish, "horizon", 0, 0, longest_episode);
+}
+
+// "FILE.rddl" is a file with a policy block, as for `rddl run --policy`.
+bool is_policy_block(const std::string& policy) {
+    return policy.ends_with(".rddl");
+}
+std::string block_of(const std::string& policy) {
+    return is_policy_block(policy) ? policy : "";
+}
+std::string name_of_policy(const std::string& policy) {
+    return is_policy_block(policy) ? "rddl" : policy;
+}
+
+std::string policy_in(const Wish& wish, const char* name = "policy") {
+    const std::string policy = wish.at(name).get<std::string>();
+    if (planners::is_planner(policy)) planners::require_planner(policy);
+    return policy;
+}
+
+Json words() {
+    Json all = Json::array();
+    for (const std::string_view word : lsp::explained_keywords()) all.push_back(word);
+    return all;
+}
+
+Json planner_names() {
+    Json all = Json::array();
+    for (const planners::PlannerText& each : planners::planner_texts()) {
+        Json options = Json::array();
+        for (const solvers::OptionText& option : each.options)
+            options.push_back({{"name", option.name}, {"help", option.help}});
+        all.push_back({{"name", planners::prefix + each.name},
+                       {"summary", each.summary},
+                       {"options", options}});
+    }
+    return all;
+}
+
+}  // namespace
+
+Tab::Tab(const TabContext& context)
+    : context_(context),
+      language_(context.problem.files.standard),
+      saved_{context.problem.domain, context.problem.instance} {
+    language_.handle({{"jsonrpc", "2.0"}, {"id", 0}, {"method", "initialize"}});
+}
+
+Texts Tab::texts_of(const Wish& wish) {
+    return {wish.at("domain").get<std::string>(), wish.at("instance").get<std::string>()};
+}
+
+std::shared_ptr<Player> Tab::player(const Wish& wish) {
+    const std::string name = wish.at("player");
+    const std::scoped_lock lock(mutex_);
+    const auto found = players_.find(name);
+    if (found == players_.end()) throw Failure("no episode has begun");
+    return found->second;
+}
+
+Reply Tab::answer(const std::string& request, const Wish& wish) {
+    using Answer = Reply (Tab::*)(const Wish&);
+    static const std::map<std::string, Answer> answers = {
+        {"open", &Tab::open},       {"language", &Tab::language}, {"save", &Tab::save},
+        {"ping", &Tab::ping},       {"describe", &Tab::describe}, {"load", &Tab::load},
+        {"step", &Tab::step},       {"run", &Tab::run},           {"advice", &Tab::advice},
+        {"stop", &Tab::stop},       {"go_to", &Tab::go_to},       {"news", &Tab::news},
+        {"picture", &Tab::picture}, {"compare", &Tab::compare},   {"train", &Tab::train},
+        {"job", &Tab::job}};
+    const auto found = answers.find(request);
+    if (found == answers.end()) return {404, "application/json", R"({"error":"no such request"})"};
+    return (this->*found->second)(wish);
+}
+
+// ------------------------------------------------------------------------------------- texts
+
+Reply Tab::open(const Wish&) {
+    const OpenedProblem& problem = context_.problem;
+    const std::scoped_lock lock(mutex_);
+    return reply({{"name", problem.name},
+                  {"domain_name", domain_name(problem)},
+                  {"instance_name", instance_name(problem)},
+                  {"domain", saved_.domain},
+                  {"instance", saved_.instance},
+                  {"can_save", problem.can_save},
+                  {"words", words()},
+                  {"planners", planner_names()}});
+}
+
+// Messages of the Language Server Protocol, and the diagnostics of texts that they have changed,
+// unless "checks" is false.
+Reply Tab::language(const Wish& wish) {
+    std::vector<Wish> answers;
+    std::optional<lsp::CheckRequest> checking;
+    const auto take = [&](std::vector<Wish> messages) {
+        std::ranges::move(messages, std::back_inserter(answers));
+    };
+    {
+        const std::scoped_lock lock(language_mutex_);
+        for (const Wish& message : wish.at("messages")) take(language_.handle(message));
+        if (wish.value("checks", true) && language_.take_change())
+            checking = language_.check_request();
+    }
+    if (checking) {  // may take long, and needs no lock
+        lsp::Checks checks = lsp::run_checks(*checking);
+        const std::scoped_lock lock(language_mutex_);
+        take(language_.publish(std::move(checks)));
+    }
+    return {.body = fmt::format(R"({{"messages":{}}})", json_line(Json(answers)))};
+}
+
+Reply Tab::ping(const Wish&) {
+    return {};
+}
+
+Reply Tab::save(const Wish& wish) {
+    const Texts texts = texts_of(wish);
+    const std::scoped_lock lock(mutex_);
+    save_texts(context_.problem, texts, saved_, wish.value("force", false));
+    saved_ = texts;
+    return {};
+}
+
+// ---------------------------------------------------------------------------------- episodes
+
+Reply Tab::load(const Wish& wish) {
+    const std::string name = wish.at("player");
+    const std::string policy = text_in(wish, "policy", "");
+    const PlayerOptions options{seed_in(wish),
+                                number_in<std::int64_t>(wish, "episode", 0, 0, longest_episode),
+                                horizon_in(wish)};
+    const auto fresh =
+        std::make_shared<Player>(load_texts(context_.problem, texts_of(wish), context_.load,
+                                            Purpose::Stepping, block_of(policy)),
+                                 options);
+    const Json description = fresh->description();
+    std::shared_ptr<Player> before;
+    {
+        const std::scoped_lock lock(mutex_);
+        constexpr std::size_t most_players = 8;
+        if (!players_.contains(name) && players_.size() >= most_players)
+            throw Failure("a tab has so many episodes at most");
+        before = std::exchange(players_[name], fresh);
+    }
+    if (before) before->stop();
+    return {.body = fmt::format(R"({{"problem":{},"news":{}}})", json_line(description),
+                                fresh->news(0, 0))};
+}
+
+// {} where no episode has begun.
+Reply Tab::describe(const Wish& wish) {
+    const std::string name = wish.at("player");
+    std::shared_ptr<Player> found;
+    {
+        const std::scoped_lock lock(mutex_);
+        if (const auto place = players_.find(name); place != players_.end()) found = place->second;
+    }
+    Json answer = Json::object();
+    if (found) answer["problem"] = found->description();
+    return reply(answer);
+}
+
+Reply Tab::step(const Wish& wish) {
+    const std::string violation =
+        player(wish)->step(wish.at("action"), wish.value("insists", false));
+    Json answer = Json::object();
+    if (!violation.empty()) answer["violation"] = violation;
+    return reply(answer);
+}
+
+Reply Tab::advice(const Wish& wish) {
+    const std::string action =
+        player(wish)->advice(*context_.workers, name_of_policy(policy_in(wish)),
+                             number_in<std::size_t>(wish, "step", 0, 0, longest_episode));
+    return {.body = fmt::format(R"({{"action":{}}})", action)};
+}
+
+Reply Tab::run(const Wish& wish) {
+    player(wish)->run(context_.workers, name_of_policy(policy_in(wish)),
+                      number_in<std::int64_t>(wish, "steps", longest_episode, 1, longest_episode));
+    return {};
+}
+
+Reply Tab::stop(const Wish& wish) {
+    if (wish.contains("player")) player(wish)->stop();
+    const std::string name = text_in(wish, "job", "");
+    const std::scoped_lock lock(mutex_);
+    if (const auto found = jobs_.find(name); found != jobs_.end()) found->second->stop();
+    return {};
+}
+
+Reply Tab::go_to(const Wish& wish) {
+    player(wish)->go_to(number_in<std::size_t>(wish, "step", 0, 0, longest_episode));
+    return {};
+}
+
+Reply Tab::news(const Wish& wish) {
+    return {.body = player(wish)->news(
+                number_in<std::uint64_t>(wish, "branch", 0, 0, std::uint64_t{1} << 53),
+                number_in<std::size_t>(wish, "since", 0, 0, longest_episode))};
+}
+
+Reply Tab::picture(const Wish& wish) {
+    const PictureSize size{number_in(wish, "width", 600, 16, 4096),
+                           number_in(wish, "height", 400, 16, 4096)};
+    return {
+        .type = "image/png",
+        .body = player(wish)->picture(number_in<std::size_t>(wish, "step", 0, 0, longest_episode),
+                                      wish.at("visualizer").get<std::string>(), size)};
+}
+
+// -------------------------------------------------------------------------------------- jobs
+
+void Tab::put_job(const std::string& name, std::shared_ptr<Job> job) {
+    const std::scoped_lock lock(mutex_);
+    std::shared_ptr<Job>& place = jobs_[name];
+    if (place) place->stop();
+    place = std::move(job);
+}
+
+Reply Tab::compare(const Wish& wish) {
+    ComparisonOptions options;
+    const std::string first = policy_in(wish, "first"), second = policy_in(wish, "second");
+    options.policies = {name_of_policy(first), name_of_policy(second)};
+    options.episodes = number_in<std::int64_t>(wish, "episodes", 100, 1, 1'000'000);
+    options.seed = seed_in(wish);
+    options.horizon = horizon_in(wish);
+    const std::string block = block_of(first).empty() ? block_of(second) : block_of(first);
+    if (is_policy_block(first) && is_policy_block(second) && first != second)
+        throw Failure("two files with policy blocks cannot be compared");
+    put_job("compare", Job::start(context_.workers, [&context = context_, texts = texts_of(wish),
+                                                     options, block](Job& job) {
+                const LoadedProblem problem =
+                    load_texts(context.problem, texts, context.load, Purpose::Episodes, block);
+                return studio::compare(job, problem, options);
+            }));
+    return {};
+}
+
+Reply Tab::train(const Wish& wish) {
+    TrainingWish training;
+    training.solver = wish.at("solver");
+    for (const Wish& option : wish.value("options", Wish::array()))
+        training.options.push_back(option.get<std::string>());
+    training.seconds = number_in(wish, "seconds", 60.0, 0.1, 1e6);
+    training.seed = seed_in(wish);
+    require_options(training);
+    put_job("train", Job::start(context_.workers, [&context = context_, texts = texts_of(wish),
+                                                   training](Job& job) mutable {
+                const LoadedProblem problem =
+                    load_texts(context.problem, texts, context.load, Purpose::Episodes);
+                training.folder = new_run_folder(problem.simulator->problem->instance,
+                                                 training.solver, training.seed);
+                return studio::train(job, problem, training);
+            }));
+    return {};
+}
+
+Reply Tab::job(const Wish& wish) {
+    const std::string name = wish.at("job");
+    const std::scoped_lock lock(mutex_);
+    const auto found = jobs_.find(name);
+    return found == jobs_.end() ? reply({{"state", "absent"}}) : reply(found->second->status());
+}
+
+}  // namespace rddlc::studio
