@@ -1,3 +1,4 @@
+// Over 400 lines: a function for each form of the IR.
 #include "ir/print.hpp"
 
 #include "ir/call.hpp"
@@ -356,9 +357,9 @@ class Printer {
                            list({form.condition, form.then_value, form.else_value}));
     }
     std::string text(const Reduce& form, Scalar, Precedence) const {
-        return fmt::format("{}{}[{}]({})", rddlc::name_of(form.op),
-                           form.over_true ? " over true" : "", binding(form.variable, form.bounds),
-                           expression(form.body));
+        const char* const elements = form.over_true ? " over true" : "";
+        return fmt::format("{}{}[{}]({})", rddlc::name_of(form.op), elements,
+                           binding(form.variable, form.bounds), expression(form.body));
     }
     std::string text(const Sample& form, Scalar, Precedence) const {
         return fmt::format("sample {}{}{}({})", form.is_valid ? "valid " : "",
