@@ -310,8 +310,8 @@ Statistics statistics_format(const std::string& word) {
 }
 
 bool portable(const Arguments& arguments) {
-    if (arguments.portable && (arguments.output.empty() ||
-                               output_kind(arguments.output) != OutputKind::SharedObject))
+    if (arguments.portable &&
+        (arguments.output.empty() || output_kind(arguments.output) != OutputKind::SharedObject))
         throw usage("--portable needs a shared object as output: -o FILE.so");
     return arguments.portable;
 }

@@ -82,6 +82,7 @@ class Key {
         add(form.variable);
         add(form.body);
         if (form.bounds) add(std::vector{form.bounds->begin, form.bounds->end});
+        add(std::uint64_t{form.over_true});
     }
     void add(const Sample& form) {
         add(static_cast<std::uint64_t>(form.distribution));
@@ -258,8 +259,8 @@ NodeId Builder::select(NodeId condition, NodeId then_value, NodeId else_value,
         {program_[then_value].type, Select{condition, then_value, else_value, evaluated}});
 }
 
-NodeId Builder::reduce(Reduction op, VariableId variable, NodeId body,
-                       std::optional<Bounds> bounds) {
+NodeId Builder::reduce(Reduction op, VariableId variable, NodeId body, std::optional<Bounds> bounds,
+                       bool over_true) {
     const Scalar type = result_type(op, program_[body].type);
     const std::int64_t size = program_[variable].size;
     if (op == Reduction::Sum) body = without_zero(program_, body);  // it begins with 0.0
@@ -275,7 +276,7 @@ NodeId Builder::reduce(Reduction op, VariableId variable, NodeId body,
     if (size == 1 && !is_argument(op)) return aggregated(op, body);
     if (fixed && is_argument(op) && is_droppable(properties(body)))
         return constant(std::int64_t{0});
-    return intern({type, Reduce{op, variable, body, {}}});
+    return intern({type, Reduce{op, variable, body, {}, over_true}});
 }
 
 NodeId Builder::aggregated(Reduction op, NodeId terms) {
@@ -318,7 +319,9 @@ NodeId Builder::rebuild(const Node& node) {
         [&](const Select& form) {
             return select(form.condition, form.then_value, form.else_value, form.evaluated);
         },
-        [&](const Reduce& form) { return reduce(form.op, form.variable, form.body, form.bounds); },
+        [&](const Reduce& form) {
+            return reduce(form.op, form.variable, form.body, form.bounds, form.over_true);
+        },
         [&](const Sample& form) {
             return sample(node.type, form.distribution, form.place, form.parameters, form.is_valid);
         },

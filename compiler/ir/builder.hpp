@@ -43,8 +43,8 @@ class Builder {
     NodeId select(NodeId condition, NodeId then_value, NodeId else_value,
                   Evaluated evaluated = Evaluated::Branch);
     // Over an empty variable only for reductions that have a value there.
-    NodeId reduce(Reduction op, VariableId variable, NodeId body,
-                  std::optional<Bounds> bounds = {});
+    NodeId reduce(Reduction op, VariableId variable, NodeId body, std::optional<Bounds> bounds = {},
+                  bool over_true = false);
     // An aggregation whose terms are combined already, such as one over a single object: a sum of
     // reals begins with 0.0, and so is never -0.0.
     NodeId aggregated(Reduction op, NodeId terms);

@@ -127,6 +127,7 @@ struct Index {  // the current value of a loop index; Int
 enum class Gather : std::uint8_t {
     None,
     Adjacent,  // the first indices are the variables of the loop: elements side by side
+    InRow,     // the last ones are, in a row that is the same for all: elements side by side
     Rows,      // of a constant table: each object, or its kind, has a row, and an index into it
     Own,       // each object has indices of its own
 };
@@ -198,6 +199,9 @@ struct Reduce {
     VariableId variable;
     NodeId body;
     std::optional<Bounds> bounds;  // absent: all of the range
+    // Emitted code visits the true elements of a row of bools alone (row_of_bools.hpp), except
+    // for several objects at once.
+    bool over_true = false;
     bool operator==(const Reduce&) const = default;
 };
 // KronDelta and DiracDelta do not occur (they are their argument).

@@ -11,6 +11,12 @@ bool is_index_of(const Program& program, VariableId variable, NodeId id) {
     return index && index->variable == variable;
 }
 
+bool are_indices_of(const Program& program, const Nest& nest, std::span<const NodeId> ids) {
+    return std::ranges::equal(nest.variables, ids, [&](VariableId variable, NodeId id) {
+        return is_index_of(program, variable, id);
+    });
+}
+
 const Apply* applied(const Program& program, Operator op, NodeId id) {
     const auto* apply = std::get_if<Apply>(&program[id].form);
     return apply && apply->op == op ? apply : nullptr;
@@ -65,9 +71,12 @@ bool is_place_in(const Program& program, const Nest& nest, NodeId id) {
 
 bool begins_with(const Program& program, const std::vector<NodeId>& indices, const Nest& nest) {
     return indices.size() >= nest.variables.size() &&
-           std::ranges::equal(
-               nest.variables, std::span(indices).first(nest.variables.size()),
-               [&](VariableId variable, NodeId id) { return is_index_of(program, variable, id); });
+           are_indices_of(program, nest, std::span(indices).first(nest.variables.size()));
+}
+
+bool ends_with(const Program& program, const std::vector<NodeId>& indices, const Nest& nest) {
+    return indices.size() >= nest.variables.size() &&
+           are_indices_of(program, nest, std::span(indices).last(nest.variables.size()));
 }
 
 bool is_same_for_all(const Properties& properties, const Nest& nest) {

@@ -35,6 +35,8 @@ std::int64_t combinations(const Program& program, std::span<const VariableId> va
 bool is_place_in(const Program& program, const Nest& nest, NodeId id);
 // The first indices are the variables of the nest.
 bool begins_with(const Program& program, const std::vector<NodeId>& indices, const Nest& nest);
+// The last ones are.
+bool ends_with(const Program& program, const std::vector<NodeId>& indices, const Nest& nest);
 // Equal in all iterations of the nest, and in all environments.
 bool is_same_for_all(const Properties& properties, const Nest& nest);
 

@@ -1,3 +1,4 @@
+// Over 400 lines: a function for each form of the IR.
 #include "ir/print.hpp"
 
 #include "ir/call.hpp"
@@ -312,7 +313,7 @@ class Printer {
         return program_[form.variable].name;
     }
     std::string text(const Load& form, Scalar, Precedence) const {
-        constexpr std::string_view how[] = {"", "adjacent ", "rows ", "own "};
+        constexpr std::string_view how[] = {"", "adjacent ", "in row ", "rows ", "own "};
         return fmt::format("{}{}", how[static_cast<std::size_t>(form.gather)],
                            element(form.buffer, form.indices));
     }
@@ -356,7 +357,8 @@ class Printer {
                            list({form.condition, form.then_value, form.else_value}));
     }
     std::string text(const Reduce& form, Scalar, Precedence) const {
-        return fmt::format("{}[{}]({})", rddlc::name_of(form.op),
+        const char* const elements = form.over_true ? " over true" : "";
+        return fmt::format("{}{}[{}]({})", rddlc::name_of(form.op), elements,
                            binding(form.variable, form.bounds), expression(form.body));
     }
     std::string text(const Sample& form, Scalar, Precedence) const {

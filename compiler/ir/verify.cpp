@@ -4,6 +4,7 @@
 #include "ir/analysis.hpp"
 #include "ir/call.hpp"
 #include "ir/print.hpp"
+#include "ir/row_of_bools.hpp"
 #include "support/failure.hpp"
 #include "support/match.hpp"
 
@@ -319,6 +320,7 @@ class Verifier {
     bool fits(const Reduce& form, Scalar result) const {
         const Scalar body = type(form.body);
         if (form.bounds && !are_uniform_ints(*form.bounds)) return false;
+        if (form.over_true && !row_of_bools(program_, form)) return false;
         const bool empty = program_[form.variable].size == 0 || form.bounds;
         switch (form.op) {
             case Reduction::ForAll:

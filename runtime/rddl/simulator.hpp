@@ -18,6 +18,7 @@
 #include <rddl/values/reductions.hpp>
 #include <rddl/values/search.hpp>
 #include <rddl/values/tables.hpp>
+#include <rddl/values/true_elements.hpp>
 
 #include <array>
 #include <cstddef>

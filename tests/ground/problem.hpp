@@ -79,6 +79,17 @@ inline ir::Program grounded(const Problem& problem) {
     return std::move(*result.program);
 }
 
+// The same with objects b1 to b20 of type "obj".
+inline ir::Program grounded_with_many(const Problem& problem) {
+    std::string text = problem.text();
+    const std::string few = "obj : {b1, b2, b3}";
+    std::string many = "obj : {b1";
+    for (int i = 2; i <= 20; ++i) many += ", b" + std::to_string(i);
+    Grounded result = ground_text(text.replace(text.find(few), few.size(), many + "}"));
+    if (!result.program) throw std::runtime_error(result.messages);
+    return std::move(*result.program);
+}
+
 // The program for moderate values alone, if there is one.
 inline ir::Program of_moderate_values(const Problem& problem) {
     ir::Program program = grounded(problem);

@@ -6,6 +6,7 @@
 #include "emit/lower/operators.hpp"
 #include "emit/lower/tables.hpp"
 #include "ir/call.hpp"
+#include "ir/row_of_bools.hpp"
 #include "support/match.hpp"
 
 #include <algorithm>
@@ -241,15 +242,53 @@ tree::Expressions Expressions::place(const ir::Place& place) {
     return {word(context()), braces("", std::move(numbers))};
 }
 
+const ir::Reduce* Expressions::over_true(const ir::Node& binder) const {
+    const auto* reduce = std::get_if<ir::Reduce>(&binder.form);
+    return reduce && reduce->over_true && !several_ ? reduce : nullptr;
+}
+
+// "state.p[c]"
+Expression Expressions::row_of_bools(const ir::Reduce& reduce) {
+    const ir::Load& load = *ir::row_of_bools(unit_.program, reduce);
+    return elements(record(load.buffer), std::span(load.indices).first(load.indices.size() - 1));
+}
+
+// "rddl::count_true(state.p[c])"
+std::optional<Expression> Expressions::count_of_true(const ir::Node& binder) {
+    const ir::Reduce* sum = over_true(binder);
+    if (!sum || std::holds_alternative<ir::Select>(unit_.program[sum->body].form))
+        return std::nullopt;
+    return tree::call("rddl::count_true", {row_of_bools(*sum)});
+}
+
+ir::NodeId Expressions::bound_value(const ir::Node& binder) const {
+    const ir::Reduce* sum = over_true(binder);
+    if (!sum) return ir::operands_of(binder).front();
+    return std::get<ir::Select>(unit_.program[sum->body].form).then_value;
+}
+
 std::string Expressions::binder_function(const ir::Node& binder) {
-    if (const auto* reduce = std::get_if<ir::Reduce>(&binder.form))
-        return "rddl::" + function_of(reduce->op) + "<" + type(binder.type) + ">";
+    if (over_true(binder)) return "rddl::sum_over_true<" + type(binder.type) + ">";
+    if (const auto* reduce = std::get_if<ir::Reduce>(&binder.form)) {
+        const std::string function = "rddl::" + function_of(reduce->op);
+        return several_ ? function : function + "<" + type(binder.type) + ">";
+    }
     const bool normalises = std::get<ir::DiscreteOver>(binder.form).normalise;
     return normalises ? "rddl::sample::unnormalised_discrete_over" : "rddl::sample::discrete_over";
 }
 
 tree::Expressions Expressions::binder_arguments(const ir::Node& binder) {
-    if (const auto* reduce = std::get_if<ir::Reduce>(&binder.form)) return {range(*reduce)};
+    if (const ir::Reduce* sum = over_true(binder)) {
+        const auto& term = std::get<ir::Select>(unit_.program[sum->body].form);
+        if (term.evaluated != ir::Evaluated::Branch) return {row_of_bools(*sum)};
+        uses_.context = true;
+        return {word(context()), row_of_bools(*sum)};
+    }
+    if (const auto* reduce = std::get_if<ir::Reduce>(&binder.form)) {
+        if (!several_) return {range(*reduce)};
+        uses_.context = true;
+        return {word(several_->context), range(*reduce)};
+    }
     const auto& discrete = std::get<ir::DiscreteOver>(binder.form);
     tree::Expressions arguments = place(discrete.place);
     arguments.push_back(word(unit_.size_of(unit_.program[discrete.variable])));
@@ -340,6 +379,10 @@ Expression Expressions::lower(const ir::Node&, const ir::Load& load) {
         case ir::Gather::Adjacent:
             return of_objects("rddl::at", record(load.buffer),
                               indices.subspan(several_->nest.variables.size()));
+        case ir::Gather::InRow: {
+            const auto row = indices.first(indices.size() - several_->nest.variables.size());
+            return of_objects("rddl::at", elements(record(load.buffer), row), {});
+        }
         case ir::Gather::Rows:
             return element_of_row(load);
         case ir::Gather::Own:

@@ -58,11 +58,12 @@ class Expressions {
     // An aggregation or a draw over objects; `body` is called while its variable has a name.
     template <class Body>
     tree::Expression lower_binder(const ir::Node& binder, Body&& body) {
+        if (auto count = count_of_true(binder)) return *std::move(count);
         tree::Expressions arguments = binder_arguments(binder);
         const Mark before = mark();
         const ir::VariableId variable = *ir::bound_variable(binder);
         enter(variable);
-        const ir::NodeId value = ir::operands_of(binder).front();
+        const ir::NodeId value = bound_value(binder);
         arguments.push_back({tree::Lambda{{parameter(variable, value)}, body(value)}});
         return_to(before);
         return tree::call(binder_function(binder), std::move(arguments));
@@ -126,6 +127,12 @@ class Expressions {
     tree::Expression call(std::string_view function, const std::vector<ir::NodeId>& operands,
                           const std::optional<ir::Place>& place = {});
     std::string binder_function(const ir::Node& binder);
+    // The sum, if it visits true elements alone.
+    const ir::Reduce* over_true(const ir::Node& binder) const;
+    std::optional<tree::Expression> count_of_true(const ir::Node& binder);
+    // The term of an aggregation, or the weight of a draw.
+    ir::NodeId bound_value(const ir::Node& binder) const;
+    tree::Expression row_of_bools(const ir::Reduce& reduce);
     tree::Expressions binder_arguments(const ir::Node& binder);
     // "rddl::Index r"; without the name where the body does not use it.
     tree::Expression parameter(ir::VariableId variable, ir::NodeId body) const;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <span>
 #include <utility>
 
 namespace rddlc::passes {
@@ -45,7 +46,29 @@ bool ObjectLanes::can_evaluate(ir::NodeId id) const {
             return ir::is_place_in(program_, nest_, interval.place.index) &&
                    can_index(interval.table, interval.row);
         },
+        [&](const ir::Reduce& reduce) { return can_aggregate(reduce); },
         [](const auto&) { return false; });
+}
+
+bool ObjectLanes::can_aggregate(const ir::Reduce& reduce) const {
+    return !reduce.bounds && reduce.op != Reduction::ArgMin && reduce.op != Reduction::ArgMax &&
+           can_evaluate(reduce.body) && can_be_term(reduce.body);
+}
+
+// Looking up bools and ints that lie apart takes an object after the other. C++ compilers do better
+// along the rows of one object.
+bool ObjectLanes::can_be_term(ir::NodeId id) const {
+    if (const auto* load = std::get_if<ir::Load>(&program_[id].form))
+        return program_[load->buffer].scalar == ir::Scalar::Real ||
+               load->indices.size() == nest_.variables.size() ||
+               ir::ends_with(program_, load->indices, nest_) ||
+               std::ranges::all_of(load->indices, [&](ir::NodeId each) { return is_same(each); });
+    return std::ranges::all_of(ir::operands_of(program_[id]),
+                               [&](ir::NodeId operand) { return can_be_term(operand); });
+}
+
+bool ObjectLanes::is_same(ir::NodeId id) const {
+    return ir::is_same_for_all(properties_of_(id), nest_);
 }
 
 bool ObjectLanes::can_evaluate_all(const std::vector<ir::NodeId>& ids) const {
@@ -59,10 +82,12 @@ bool ObjectLanes::can_index(ir::BufferId buffer, const std::vector<ir::NodeId>& 
         const auto rest = indices.begin() + static_cast<std::ptrdiff_t>(nest_.variables.size());
         return can_evaluate_all({rest, indices.end()});
     }
-    const bool is_same = std::ranges::all_of(indices, [&](ir::NodeId index) {
-        return ir::is_same_for_all(properties_of_(index), nest_);
-    });
-    return is_same ||
+    const auto are_same = [&](std::span<const ir::NodeId> some) {
+        return std::ranges::all_of(some, [&](ir::NodeId index) { return is_same(index); });
+    };
+    if (ir::ends_with(program_, indices, nest_))
+        return are_same(std::span(indices).first(indices.size() - nest_.variables.size()));
+    return are_same(indices) ||
            (program_[buffer].storage == ir::Storage::Constant && can_evaluate_all(indices));
 }
 

@@ -1,6 +1,7 @@
 // Whether expressions can be evaluated for several objects at once (rddl/object_lanes/objects.hpp):
 // they need elements of their own objects, what is the same for all, or what they choose from
-// constants, and no aggregations.
+// constants. So do the terms of their aggregations, in which an object's elements have to lie
+// beside those of its neighbours.
 #pragma once
 
 #include "ir/analysis.hpp"
@@ -28,6 +29,9 @@ class ObjectLanes {
 
   private:
     bool can_index(ir::BufferId buffer, const std::vector<ir::NodeId>& indices) const;
+    bool can_aggregate(const ir::Reduce& reduce) const;
+    bool can_be_term(ir::NodeId id) const;
+    bool is_same(ir::NodeId id) const;
     bool is_at_own_place(const ir::Element& element) const;
     bool can_evaluate_all(const std::vector<ir::NodeId>& ids) const;
 

@@ -3,11 +3,13 @@
 #include "ir/analysis.hpp"
 #include "ir/nest.hpp"
 #include "ir/rewrite.hpp"
+#include "ir/row_of_bools.hpp"
 
 #include <algorithm>
 #include <array>
 #include <map>
 #include <optional>
+#include <span>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -66,10 +68,16 @@ class Gathering {
     ir::Gather gather_of(const ir::Load& load, const ir::Nest& nest) const {
         if (are_rows(load, nest)) return ir::Gather::Rows;
         if (ir::begins_with(program_, load.indices, nest)) return ir::Gather::Adjacent;
-        const bool is_same = std::ranges::all_of(load.indices, [&](ir::NodeId index) {
-            return ir::is_same_for_all(builder_.properties(index), nest);
-        });
-        return is_same ? ir::Gather::None : ir::Gather::Own;
+        const auto are_same = [&](std::span<const ir::NodeId> indices) {
+            return std::ranges::all_of(indices, [&](ir::NodeId index) {
+                return ir::is_same_for_all(builder_.properties(index), nest);
+            });
+        };
+        const std::span<const ir::NodeId> indices = load.indices;
+        if (are_same(indices)) return ir::Gather::None;
+        const bool is_in_row = ir::ends_with(program_, load.indices, nest) &&
+                               are_same(indices.first(indices.size() - nest.variables.size()));
+        return is_in_row ? ir::Gather::InRow : ir::Gather::Own;
     }
 
     bool are_rows(const ir::Load& load, const ir::Nest& nest) const {
@@ -113,6 +121,10 @@ class Choices {
         return apply && type == ir::Scalar::Real && program_.real == RealType::Double &&
                (apply->op == Operator::Round || apply->op == Operator::Floor ||
                 apply->op == Operator::Ceil);
+    }
+
+    bool over_true(const ir::Reduce& reduce) const {
+        return ir::row_of_bools(program_, reduce) != nullptr;
     }
 
     ir::Evaluated evaluated(const ir::Select& select) const {
@@ -160,6 +172,8 @@ ir::Program choose_evaluation(ir::Program program, Report& report) {
             choose(select->evaluated, choices.evaluated(*select), "selects without jumps");
         if (auto* sample = std::get_if<ir::Sample>(&node.form))
             choose(sample->is_valid, choices.is_valid(*sample), "draws without a check");
+        if (auto* reduce = std::get_if<ir::Reduce>(&node.form))
+            choose(reduce->over_true, choices.over_true(*reduce), "sums over true elements");
         if (auto* convert = std::get_if<ir::Convert>(&node.form))
             choose(convert->skips_int, choices.skips_int(*convert, node.type),
                    "rounded reals without an int");

@@ -7,10 +7,13 @@
 //                              =>  sample valid bernoulli@0[x](RATE[x])
 //     real(round(state.heat[x]))
 //                              =>  rounded real(round(state.heat[x]))
+//     sum[x in zone](select(state.on[x], state.heat[x], 0.0))
+//                              =>  sum over true[x in zone](select ...)
 //
 // and in loops over several objects at once
 //
 //     state.on[x]              =>  adjacent state.on[x]
+//     state.open[y, x]         =>  in row state.open[y, x]
 //     HEAT[KIND[x], count]     =>  rows HEAT[adjacent KIND[x], count]
 //     state.on[NEXT[x]]        =>  own state.on[adjacent NEXT[x]]
 #pragma once

@@ -45,7 +45,9 @@ class Marking {
             const auto* store = std::get_if<ir::Store>(&statement.form);
             if (!store) continue;
             const ir::Scalar scalar = program_[store->target].scalar;
-            if (scalar == ir::Scalar::Int && !properties_[store->value.index].random) return false;
+            if (scalar == ir::Scalar::Int && !properties_[store->value.index].random &&
+                !aggregates(store->value))
+                return false;
             cost += cost_of(store->value);
             draws_or_is_bool &=
                 scalar == ir::Scalar::Bool || properties_[store->value.index].random;
@@ -61,6 +63,12 @@ class Marking {
                    return (let && is_of_bools(program_, let->value, nest)) ||
                           (store && is_of_bools(program_, store->value, nest));
                });
+    }
+    bool aggregates(ir::NodeId id) const {
+        const ir::Node& node = program_[id];
+        return std::holds_alternative<ir::Reduce>(node.form) ||
+               std::ranges::any_of(ir::operands_of(node),
+                                   [&](ir::NodeId operand) { return aggregates(operand); });
     }
     double cost_of(ir::NodeId id) const { return properties_[id.index].cost; }
 

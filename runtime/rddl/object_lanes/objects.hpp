@@ -12,6 +12,7 @@
 #include <rddl/values/bits.hpp>
 #include <rddl/values/context.hpp>
 #include <rddl/values/pack_ops.hpp>
+#include <rddl/values/reductions.hpp>
 
 #include <algorithm>
 #include <array>
@@ -217,6 +218,41 @@ template <class T, int n>
 template <class Value>
 RDDL_INLINE void Elements<T, n>::operator=(const Value& values) const {
     detail::store_some(first, objects, LanesOf<Value, n>(values));
+}
+
+// ----------------------------------------------------------------------------- aggregations
+
+// Aggregations (reductions.hpp) of each object by itself, whose terms may differ between objects.
+namespace detail {
+
+template <class L, class Body>
+using TermsOf = LanesOf<std::remove_cvref_t<std::invoke_result_t<Body&, Index>>, L::width>;
+
+}  // namespace detail
+
+template <class L, class Body>
+RDDL_INLINE auto sum(const Context<L>&, IndexRange range, Body&& body) {
+    return sum<detail::TermsOf<L, Body>>(range, body);
+}
+template <class L, class Body>
+RDDL_INLINE auto product(const Context<L>&, IndexRange range, Body&& body) {
+    return product<detail::TermsOf<L, Body>>(range, body);
+}
+template <class L, class Body>
+RDDL_INLINE auto minimum_over(const Context<L>&, Index count, Body&& body) {
+    return minimum_over<detail::TermsOf<L, Body>>(count, body);
+}
+template <class L, class Body>
+RDDL_INLINE auto maximum_over(const Context<L>&, Index count, Body&& body) {
+    return maximum_over<detail::TermsOf<L, Body>>(count, body);
+}
+template <class L, class Body>
+RDDL_INLINE auto for_all(const Context<L>&, IndexRange range, Body&& body) {
+    return for_all<detail::TermsOf<L, Body>>(range, body);
+}
+template <class L, class Body>
+RDDL_INLINE auto exists(const Context<L>&, IndexRange range, Body&& body) {
+    return exists<detail::TermsOf<L, Body>>(range, body);
 }
 
 // ------------------------------------------------------------------------------------ loops

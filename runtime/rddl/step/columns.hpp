@@ -203,6 +203,14 @@ constexpr std::byte bool_of(std::byte byte) {
 RDDL_INLINE std::uint64_t all_bytes(const std::byte* bytes, std::int64_t count) {
     std::uint64_t all = 0;
     std::int64_t k = 0;
+    simd::Words some{};
+    constexpr std::int64_t size = sizeof some;
+    for (; k + size <= count; k += size) {
+        simd::Words chunk;
+        __builtin_memcpy(&chunk, bytes + k, sizeof chunk);
+        some |= chunk;
+    }
+    for (int i = 0; k > 0 && i < simd::lanes; ++i) all |= some[i];
     for (; k + 8 <= count; k += 8) {
         std::uint64_t chunk;
         __builtin_memcpy(&chunk, bytes + k, sizeof chunk);

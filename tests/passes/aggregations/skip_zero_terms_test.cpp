@@ -19,6 +19,24 @@ TEST(SkipZeroTerms, ComputesOnlyTermsThatCount) {
               "power(sum[q in obj](state.v[q] * state.v[q]), 0.5), 0.0))");
 }
 
+// Emitted code visits the true bools of a row alone, so that cheap terms are also worth it.
+TEST(SkipZeroTerms, ComputesAlsoCheapTermsOfRows) {
+    const auto skipping_rows = [](const std::string& cpf_of_x) {
+        Problem problem = with_tables(cpf_of_x);
+        problem.pvariables += "\nq(obj, obj) : { state-fluent, bool, default = false };";
+        problem.cpfs += "\nq'(?o, ?r) = q(?o, ?r);";
+        problem.non_fluents.clear();
+        const ir::Program program = grounded_with_many(problem);
+        return of_x(program.moderate ? **program.moderate : program, passes::skip_zero_terms).after;
+    };
+    EXPECT_EQ(skipping_rows("sum_{?o : obj} [v(?o) * p(?o)]"),
+              "sum[o in obj](select(state.p[o], state.v[o], 0.0))");
+    EXPECT_EQ(skipping_rows("sum_{?r : obj, ?o : obj} [-0.5 * q(?r, ?o)]"),
+              "sum[r in obj](sum[o in obj](select(state.q[r, o], -0.5, 0.0)))");
+    EXPECT_EQ(skipping_rows("sum_{?r : obj, ?o : obj} [v(?o) * q(?o, ?r)]"),
+              "sum[r in obj](sum[o in obj](state.v[o] * real(state.q[o, r])))");
+}
+
 // Terms are left if they are cheap, may be inf or nan, draw, or are not part of a sum.
 TEST(SkipZeroTerms, LeavesOtherTerms) {
     for (const char* cpf :

@@ -80,5 +80,60 @@ TEST(ChooseEvaluation, SaysHowObjectsLoad) {
               "action.a || own T[adjacent state.s[o, q], adjacent state.s[o, q]] > 1.5");
 }
 
+// The value of x' in the text after the two last passes, where 20 objects are a row.
+std::string chosen_for_rows(const std::string& cpf_of_x, const std::string& type = "real") {
+    const Problem problem = {
+        .pvariables =
+            "C(obj, obj) : { non-fluent, bool, default = true };\n"
+            "p(obj, obj) : { state-fluent, bool, default = false };\n"
+            "q(obj) : { state-fluent, bool, default = false };\n"
+            "v(obj) : { state-fluent, real, default = 0.0 };\n"
+            "k : { state-fluent, obj };\n"
+            "x(obj) : { interm-fluent, " +
+            type + " };",
+        .cpfs = "x(?o) = " + cpf_of_x +
+                ";\np'(?o, ?w) = p(?o, ?w);\nq'(?o) = q(?o);\nv'(?o) = v(?o);\nk' = k;",
+        .non_fluents = "C(b1, b2) = false;",
+        .init_state = "k = @b1;"};
+    passes::Report report;
+    ir::Program program = passes::evaluate_together(grounded_with_many(problem), report);
+    program = valid(passes::choose_evaluation(std::move(program), report));
+    const std::string text = ir::print(program);
+    const std::size_t begin = text.find("scratch.x[o] = ") + 15;
+    return text.substr(begin, text.find("\n", begin) - begin);
+}
+
+TEST(ChooseEvaluation, VisitsTrueElementsOfRowsAlone) {
+    EXPECT_EQ(chosen_for_rows("sum_{?w : obj} p(?o, ?w)", "int"),
+              "sum over true[w in obj](int(state.p[o, w]))");
+    EXPECT_EQ(chosen_for_rows("sum_{?w : obj} [if (p(?o, ?w)) then exp[v(?w)] else 0.0]"),
+              "sum over true[w in obj](select(state.p[o, w], exp(state.v[w]), 0.0))");
+    EXPECT_EQ(chosen_for_rows("sum_{?w : obj} [if (q(?w)) then 3 else 0]", "int"),
+              "sum over true[w in obj](select both(state.q[w], 3, 0))");
+}
+
+// Columns, constants, parts of terms, other zeros and elements that the state chooses are no rows.
+TEST(ChooseEvaluation, VisitsAllElementsOfOtherSums) {
+    for (const char* cpf : {"sum_{?w : obj} [if (p(?o, ?w)) then v(?w) else -0.0]",
+                            "sum_{?w : obj} [if (p(?o, ?w)) then v(?w) else 1.0]",
+                            "sum_{?w : obj} [if (p(?w, ?w)) then v(?w) else 0.0]",
+                            "sum_{?w : obj} [if (p(k, ?w)) then v(?w) else 0.0]",
+                            "sum_{?w : obj} [if (C(?o, ?w)) then v(?w) else 0.0]",
+                            "prod_{?w : obj} [if (p(?o, ?w)) then v(?w) else 0.0]",
+                            "sum_{?w : obj} [if (p(?o, ?w) ^ q(?w)) then v(?w) else 0.0]"})
+        EXPECT_EQ(chosen_for_rows(cpf).find("over true"), std::string::npos) << cpf;
+    EXPECT_EQ(
+        chosen("[sum_{?w : obj} (if (v(?o, ?w)) then 2.0 else 0.0)] > 1.0", "bool").find("over"),
+        std::string::npos)
+        << "a short row";
+}
+
+TEST(ChooseEvaluation, SaysThatObjectsLoadFromOneRow) {
+    EXPECT_EQ(chosen_for_rows("exists_{?w : obj} [p(?w, ?o) ^ q(?w)]", "bool"),
+              "exists[w in obj](in row state.p[w, o] && state.q[w])");
+    EXPECT_EQ(chosen_for_rows("sum_{?w : obj} [p(?w, ?o) * v(?w)]"),
+              "sum[w in obj](real(in row state.p[w, o]) * state.v[w])");
+}
+
 }  // namespace
 }  // namespace rddlc

@@ -59,6 +59,46 @@ TEST(EvaluateTogether, LeavesLoopsThatReadOtherElements) {
         EXPECT_EQ(loop_for(cpf), "for x in obj") << cpf;
 }
 
+// The loop over 27 triples; the CPF of `t` of a triple is given.
+std::string loop_over_triples(const std::string& cpf_of_t, const std::string& type) {
+    const Problem problem = {
+        .pvariables =
+            "C(obj, obj, obj) : { non-fluent, real, default = 0.5 };\n"
+            "u(obj, obj, obj, obj) : { state-fluent, bool, default = false };\n"
+            "r(obj, obj, obj, obj) : { state-fluent, real, default = 0.0 };\n"
+            "t(obj, obj, obj) : { interm-fluent, " +
+            type + " };",
+        .cpfs = "t(?x, ?y, ?z) = " + cpf_of_t +
+                ";\nu'(?w, ?x, ?y, ?z) = u(?w, ?x, ?y, ?z);\n"
+                "r'(?w, ?x, ?y, ?z) = r(?w, ?x, ?y, ?z);",
+        .non_fluents = "C(b1, b2, b2) = 0.25;"};
+    passes::Report report;
+    const std::string text = ir::print(valid(passes::evaluate_together(grounded(problem), report)));
+    const std::size_t store = text.find("scratch.t[");
+    const std::size_t begin = text.rfind("for x in obj", store), end = text.find("\n", begin);
+    return text.substr(begin, end - begin);
+}
+
+TEST(EvaluateTogether, TakesAggregationsOfElementsThatLieBesideEachOther) {
+    EXPECT_EQ(loop_over_triples("exists_{?w : obj} [u(?w, ?x, ?y, ?z)]", "bool"),
+              "for x in obj, several at once");
+    EXPECT_EQ(loop_over_triples("sum_{?w : obj} [u(?w, ?x, ?y, ?z)]", "int"),
+              "for x in obj, several at once");
+    EXPECT_EQ(loop_over_triples("min_{?w : obj} [r(?w, ?x, ?y, ?z) * C(?x, ?y, ?z)]", "real"),
+              "for x in obj, several at once");
+}
+
+TEST(EvaluateTogether, LeavesOtherAggregations) {
+    for (const char* cpf :
+         {"exists_{?w : obj} [u(?x, ?y, ?z, ?w)]", "exists_{?w : obj} [u(?x, ?w, ?y, ?z)]",
+          "exists_{?w : obj} [u(?w, ?x, ?z, ?y)]", "exists_{?w : obj} [?w == ?x]",
+          "forall_{?w : obj} [Bernoulli(0.5) | u(?w, ?x, ?y, ?z)]"})
+        EXPECT_EQ(loop_over_triples(cpf, "bool"), "for x in obj") << cpf;
+    EXPECT_EQ(loop_over_triples("sum_{?w : obj} [r(?x, ?y, ?z, ?w) * 2.0]", "real"),
+              "for x in obj");
+    EXPECT_EQ(loop_over_triples("argmax_{?w : obj} [r(?w, ?x, ?y, ?z)]", "obj"), "for x in obj");
+}
+
 TEST(EvaluateTogether, LeavesCheapSumsAndShortLoops) {
     passes::Report report;
     const std::string text =

@@ -6,8 +6,10 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 
 namespace rddl {
 namespace {
@@ -177,6 +179,72 @@ TEST(Objects, HaveWordsOfBools) {
     expect_words<100>();
     expect_words<128>();
     expect_words<151>();
+}
+
+// Each object aggregates elements that lie beside those of its neighbours: the same results as one
+// object after the other, with the first of two zeros, nan and the order of additions.
+TEST(Objects, AggregateTheirOwnTerms) {
+    constexpr std::size_t terms = 7, objects = 37;
+    constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+    std::array<std::array<double, objects>, terms> level;
+    std::array<std::array<bool, objects>, terms> on;
+    for (std::size_t k = 0; k < terms; ++k)
+        for (std::size_t i = 0; i < objects; ++i) {
+            level[k][i] = k % 2 == 0 ? 0.1 * static_cast<double>(i + k) : -1e16;
+            if (i % 5 == 0) level[k][i] = k % 2 == 0 ? -0.0 : 0.0;
+            if (i % 11 == 3 && k == 4) level[k][i] = nan;
+            on[k][i] = (i * k) % 3 == 1 || i % 4 == 0;
+        }
+    struct Results {
+        std::array<double, objects> sum, product, least, greatest;
+        std::array<std::int64_t, objects> count;
+        std::array<bool, objects> all, any;
+    } together, alone;
+    constexpr auto term_count = static_cast<Index>(terms);
+    const auto row = [](auto& table, Index k) -> auto& {
+        return table[static_cast<std::size_t>(k)];
+    };
+    Context<Scalar> context = context_of_step(1);
+    for_each_object(context, static_cast<Index>(objects), [&](auto& several, auto x) {
+        const auto term = [&](Index k) {
+            return at(row(level, k), x);
+        };
+        const auto condition = [&](Index k) {
+            return at(row(on, k), x);
+        };
+        elements(together.sum, x) = sum(several, term_count, term);
+        elements(together.product, x) = product(several, term_count, term);
+        elements(together.least, x) = minimum_over(several, term_count, term);
+        elements(together.greatest, x) = maximum_over(several, term_count, term);
+        elements(together.count, x) =
+            sum(several, IndexRange(1, 5), [&](Index k) { return to_int(condition(k)); });
+        elements(together.all, x) = for_all(several, term_count, condition);
+        elements(together.any, x) = exists(several, term_count, condition);
+    });
+    for (std::size_t i = 0; i < objects; ++i) {
+        const auto term = [&](Index k) {
+            return row(level, k)[i];
+        };
+        const auto condition = [&](Index k) {
+            return row(on, k)[i];
+        };
+        alone.sum[i] = sum<double>(term_count, term);
+        alone.product[i] = product<double>(term_count, term);
+        alone.least[i] = minimum_over<double>(term_count, term);
+        alone.greatest[i] = maximum_over<double>(term_count, term);
+        alone.count[i] =
+            sum<std::int64_t>(IndexRange(1, 5), [&](Index k) { return to_int(condition(k)); });
+        alone.all[i] = for_all<bool>(term_count, condition);
+        alone.any[i] = exists<bool>(term_count, condition);
+        for (const auto reals :
+             {&Results::sum, &Results::product, &Results::least, &Results::greatest})
+            EXPECT_EQ(std::bit_cast<std::uint64_t>((together.*reals)[i]),
+                      std::bit_cast<std::uint64_t>((alone.*reals)[i]))
+                << i;
+        EXPECT_EQ(together.count[i], alone.count[i]) << i;
+        EXPECT_EQ(together.all[i], alone.all[i]) << i;
+        EXPECT_EQ(together.any[i], alone.any[i]) << i;
+    }
 }
 
 TEST(Objects, TakeOneValueForAll) {

@@ -1,0 +1,96 @@
+// Sums over a row of bools in which the true ones alone count.
+//
+// One environment looks up which ones are true, 64 at a time, and visits no others. Packs of
+// environments visit those that are true in one of theirs if the terms take long, else all.
+#pragma once
+
+#include <rddl/lanes/lane.hpp>
+#include <rddl/lanes/pack.hpp>
+#include <rddl/lanes/simd_moves.hpp>
+#include <rddl/values/bits.hpp>
+#include <rddl/values/bool_rows.hpp>
+#include <rddl/values/context.hpp>
+#include <rddl/values/ops.hpp>
+#include <rddl/values/pack_ops.hpp>
+#include <rddl/values/reductions.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+namespace rddl {
+
+namespace detail {
+
+// Calls visit(first, bits) for 64 bools after the other: the first one of them, and their bits.
+template <std::size_t n, class Visit>
+RDDL_INLINE void for_each_word(const std::array<bool, n>& row, Visit&& visit) {
+    constexpr Index size = static_cast<Index>(n);
+    for (Index first = 0; first < size; first += 64)
+        visit(first, simd::bits_of_stored_bytes(
+                         row.data() + first, static_cast<int>(std::min<Index>(64, size - first))));
+}
+
+}  // namespace detail
+
+// How many are true. Int.
+template <std::size_t n>
+RDDL_INLINE std::int64_t count_true(const std::array<bool, n>& row) {
+    std::int64_t total = 0;
+    detail::for_each_word(row,
+                          [&](Index, std::uint64_t bits) { total += __builtin_popcountll(bits); });
+    return total;
+}
+template <std::size_t n, int width>
+RDDL_INLINE Lanes<std::int64_t, width> count_true(const std::array<Mask<width>, n>& row) {
+    constexpr std::size_t last = n / 64 * 64;
+    Lanes<std::int64_t, width> total{0};
+    for (std::size_t first = 0; first < last; first += 64)
+        total = wrap_add(total, count_ones(bits_in_lanes<64>(row.data() + first)));
+    if constexpr (last < n)
+        total = wrap_add(total, count_ones(bits_in_lanes<int{n - last}>(row.data() + last)));
+    return total;
+}
+
+// The sum of body(i) over the true ones, in order. Sums of reals begin with 0.0, so that terms of
+// 0.0 for the others would change nothing. With a context, the body may draw, fault or take long.
+template <class T, std::size_t n, class Body>
+RDDL_INLINE T sum_over_true(const std::array<bool, n>& row, Body&& body) {
+    T total{0};
+    detail::for_each_word(row, [&](Index first, std::uint64_t bits) {
+        for (; bits != 0; bits &= bits - 1)
+            total = detail::plus(total, body(first + __builtin_ctzll(bits)));
+    });
+    return total;
+}
+template <class T, class R, std::size_t n, class Body>
+RDDL_INLINE T sum_over_true(Context<ScalarOf<R>>&, const std::array<bool, n>& row, Body&& body) {
+    return sum_over_true<T>(row, body);
+}
+template <class T, std::size_t n, int width, class Body>
+RDDL_INLINE T sum_over_true(const std::array<Mask<width>, n>& row, Body&& body) {
+    return sum<T>(static_cast<Index>(n),
+                  [&](Index i) { return select(row[static_cast<std::size_t>(i)], body(i), T{0}); });
+}
+template <class T, class L, std::size_t n, int width, class Body>
+RDDL_INLINE T sum_over_true(Context<L>& context, const std::array<Mask<width>, n>& row,
+                            Body&& body) {
+    constexpr std::size_t tested_at_once = 32;
+    T total{0};
+    const auto add = [&](std::size_t i) RDDL_INLINE_LAMBDA {
+        const T term = branch(
+            context, row[i], [&] { return T(body(static_cast<Index>(i))); }, [&] { return T{0}; });
+        total = detail::plus(total, term);
+    };
+    for (std::size_t first = 0; first < n; first += tested_at_once) {
+        const std::size_t end = std::min(n, first + tested_at_once);
+        Mask<width> some = row[first];
+        for (std::size_t i = first; i < end; ++i) some = some || row[i];
+        for (std::size_t i = first; any(some) && i < end; ++i)
+            if (any(row[i])) add(i);
+    }
+    return total;
+}
+
+}  // namespace rddl

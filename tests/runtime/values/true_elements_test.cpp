@@ -1,0 +1,102 @@
+// Sums over the true elements of a row, in one environment and in packs. Also built for other
+// instruction sets (CMakeLists.txt).
+#include <rddl/simulator.hpp>
+#include <rddl/values/true_elements.hpp>
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+
+namespace rddl {
+namespace {
+
+constexpr int width = 16;
+
+template <std::size_t n>
+using Rows = std::array<std::array<bool, n>, width>;  // of so many environments
+
+template <std::size_t n>
+Rows<n> rows_with(std::size_t kind) {
+    Rows<n> rows;
+    for (std::size_t lane = 0; lane < width; ++lane)
+        for (std::size_t i = 0; i < n; ++i)
+            rows[lane][i] = kind == 0   ? false
+                            : kind == 1 ? true
+                                        : (i * (lane + 3) + i / 7) % (kind + lane) == 0;
+    return rows;
+}
+
+// Cancels, so that the order shows.
+double term_of(Index i) {
+    return i % 2 == 0 ? 1e16 + static_cast<double>(i) : -1e16 + 0.5 * static_cast<double>(i);
+}
+
+template <std::size_t n>
+void expect_sums() {
+    const auto size = static_cast<Index>(n);
+    for (std::size_t kind = 0; kind < 12; ++kind) {
+        const Rows<n> rows = rows_with<n>(kind);
+        std::array<Mask<width>, n> masks;
+        for (std::size_t i = 0; i < n; ++i)
+            for (std::size_t lane = 0; lane < width; ++lane)
+                masks[i].set(static_cast<int>(lane), rows[lane][i]);
+        Context<Pack<width>> context{};
+        context.active = Mask<width>(true);
+        const auto counts = count_true(masks);
+        const auto sums = sum_over_true<Pack<width>::Real>(masks, term_of);
+        const auto jumping = sum_over_true<Pack<width>::Real>(context, masks, term_of);
+        const auto ints = sum_over_true<Pack<width>::Int>(masks, [](Index i) { return 3 * i; });
+        for (std::size_t lane = 0; lane < width; ++lane) {
+            const auto& row = rows[lane];
+            const auto counted = [&](Index i) {
+                return row[static_cast<std::size_t>(i)];
+            };
+            const auto total =
+                sum<double>(size, [&](Index i) { return counted(i) ? term_of(i) : 0.0; });
+            const auto number =
+                sum<std::int64_t>(size, [&](Index i) { return counted(i) ? 3 * i : 0; });
+            const auto count = sum<std::int64_t>(size, [&](Index i) { return to_int(counted(i)); });
+            const int at = static_cast<int>(lane);
+            EXPECT_EQ(count_true(row), count) << n << " " << kind;
+            EXPECT_EQ(counts[at], count) << n << " " << kind;
+            EXPECT_EQ(sum_over_true<double>(row, term_of), total) << n << " " << kind;
+            EXPECT_EQ(sums[at], total) << n << " " << kind;
+            EXPECT_EQ(jumping[at], total) << n << " " << kind;
+            EXPECT_EQ(sum_over_true<std::int64_t>(row, [](Index i) { return 3 * i; }), number);
+            EXPECT_EQ(ints[at], number) << n << " " << kind;
+        }
+    }
+}
+
+TEST(TrueElements, AreCountedAndAdded) {
+    expect_sums<1>();
+    expect_sums<16>();
+    expect_sums<63>();
+    expect_sums<64>();
+    expect_sums<65>();
+    expect_sums<130>();
+}
+
+TEST(TrueElements, GiveNoNegativeZero) {
+    const std::array<bool, 3> row{true, false, true};
+    EXPECT_FALSE(std::signbit(sum_over_true<double>(row, [](Index) { return -0.0; })));
+}
+
+// Only the terms of true elements are computed.
+TEST(TrueElements, AreVisitedAlone) {
+    std::array<bool, 70> row{};
+    row[3] = row[69] = true;
+    Index visited = 0;
+    Context<Scalar> context{};
+    sum_over_true<double>(context, row, [&](Index i) {
+        visited = 100 * visited + i;
+        return 1.0;
+    });
+    EXPECT_EQ(visited, 369);
+}
+
+}  // namespace
+}  // namespace rddl
