@@ -16,10 +16,10 @@ namespace rddlc::ir {
 // its reduction; a draw is a block of Philox, and that of a real also a quantile; a step takes its
 // call, its random stream and its flags.
 inline constexpr double cheap_cost = 6;
-inline constexpr double division_cost = 6;
-inline constexpr double elementary_cost = 100;
+inline constexpr double division_cost = 4;
+inline constexpr double elementary_cost = 110;
 inline constexpr double draw_cost = 20;
-inline constexpr double quantile_cost = 160;
+inline constexpr double quantile_cost = 190;
 inline constexpr double step_cost = 100;
 // Iterations that a loop over several objects makes at once: the doubles of an AVX2 register.
 inline constexpr double objects_at_once = 4;
