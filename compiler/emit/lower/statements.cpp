@@ -291,7 +291,7 @@ tree::Expression FunctionBody::value(Use use, ir::NodeId id) {
 }
 
 // A chain of else-ifs is one call: its conditions after the first are lambdas, like its values.
-// What packs evaluate in all lanes needs no context.
+// Branches that packs evaluate in all lanes need no context.
 tree::Expression FunctionBody::branch(const ir::Select& select) {
     std::vector<ir::NodeId> lambdas = {select.then_value};
     ir::NodeId last = select.else_value;
