@@ -12,8 +12,11 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 source scripts/lib.sh
 
 all_tests=OFF
+# Tests of bad input that take long run under the sanitizers alone.
+once=(--exclude-regex '^(fuzz\.files|robustness\.(Bytes|Files|Mutations|Numbers|Pictures|SceneFiles|Sizes))$')
 if [ "${1:-}" = --all ]; then
     all_tests=ON
+    once=()
     shift
 fi
 
@@ -42,7 +45,7 @@ export PATH="/usr/lib/ccache:$PATH" CCACHE_DIR="$PWD/build/ccache" CCACHE_MAXSIZ
 jobs=$(nproc)
 # Both sets run, even if the first fails; the exit status reports either failure.
 status=0
-ctest --test-dir build --parallel "$jobs" --output-on-failure "$@" || status=1
+ctest --test-dir build --parallel "$jobs" --output-on-failure ${once[@]+"${once[@]}"} "$@" || status=1
 # The frames of sanitized code are several times as large: what just fits 8 MB of stack needs more.
 (
     ulimit -S -s 65536
