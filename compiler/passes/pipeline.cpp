@@ -25,8 +25,10 @@
 #include "passes/lanes/choose_evaluation.hpp"
 #include "passes/lanes/evaluate_together.hpp"
 #include "passes/lanes/read_places.hpp"
+#include "passes/lanes/separate_aggregations.hpp"
 #include "passes/lanes/separate_counts.hpp"
 #include "passes/lanes/separate_draws.hpp"
+#include "passes/lanes/unroll_rows.hpp"
 #include "passes/sharing/remove_unused_buffers.hpp"
 #include "passes/sharing/share_across_definitions.hpp"
 #include "passes/sharing/share_subexpressions.hpp"
@@ -206,11 +208,23 @@ constexpr Pass in_order[] = {
      "loops over bools leave their draws to tables, to run over words of bools",
      {"merge_draws", "read_places"},
      "a loop has to read all its bools in words before its draws are worth a table"},
+    {"separate_aggregations",
+     Phase::Lanes,
+     separate_aggregations,
+     "loops and sums leave aggregations and terms to tables, to run over several objects at once",
+     {"share_across_definitions"},
+     "an aggregation that is shared is a table already"},
+    {"unroll_rows",
+     Phase::Lanes,
+     unroll_rows,
+     "small tables of sums over rows are filled without loops",
+     {"separate_aggregations"},
+     "it has made such tables"},
     {"remove_unused_buffers",
      Phase::Sharing,
      remove_unused_buffers,
      "unread tables and interm-fluents are removed",
-     {"separate_draws"},
+     {"unroll_rows"},
      "all passes above leave tables unread"},
     {"share_subexpressions",
      Phase::Sharing,

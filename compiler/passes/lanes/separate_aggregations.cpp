@@ -1,0 +1,174 @@
+#include "passes/lanes/separate_aggregations.hpp"
+
+#include "ir/fill_table.hpp"
+#include "ir/nest.hpp"
+#include "ir/reduction_nest.hpp"
+#include "ir/rewrite.hpp"
+#include "passes/analyses/object_lanes.hpp"
+
+#include <algorithm>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace rddlc::passes {
+namespace {
+
+// Operations (Properties::cost) that are worth writing a value to a table and reading it again.
+constexpr double worth_separating = 10;
+
+using Variables = std::vector<ir::VariableId>;
+
+class Separation {
+  public:
+    Separation(ir::Program program, Report& report)
+        : program_(std::move(program)), report_(report), builder_(program_) {}
+
+    ir::Program run() && {
+        for (ir::Definition& definition : program_.step) {
+            name_ = program_[definition.target].name;
+            span_ = definition.span;
+            definition.body = separated(std::move(definition.body));
+        }
+        name_ = "reward";
+        span_ = program_.reward.span;
+        program_.reward.value = with_terms(program_.reward.value, program_.reward.body);
+        return ir::collect_garbage(std::move(program_));
+    }
+
+  private:
+    ir::Block separated(ir::Block block) {
+        ir::Block result;
+        for (ir::Statement& statement : block) {
+            if (auto* loop = std::get_if<ir::Loop>(&statement.form)) separate(*loop, result);
+            if (auto* store = std::get_if<ir::Store>(&statement.form))
+                store->value = with_terms(store->value, result);
+            result.push_back(std::move(statement));
+        }
+        return result;
+    }
+
+    // ------------------------------------------------------------- aggregations inside of loops
+
+    void separate(ir::Loop& loop, ir::Block& before) {
+        const ir::Nest nest = ir::nest_of(loop);
+        auto* const store = ir::only_statement<ir::Store>(ir::innermost_body(loop));
+        if (!store) return;
+        std::vector<ir::NodeId> aggregations;
+        const bool all_found = find_aggregations(store->value, nest.variables, aggregations);
+        if (!all_found || aggregations.empty() || reads(store->value, store->target)) return;
+        const auto is_one = [&](ir::NodeId id) {
+            return std::ranges::find(aggregations, id) != aggregations.end();
+        };
+        const ObjectLanes several = several_of(nest, is_one);
+        double rest = builder_.properties(store->value).cost;
+        for (const ir::NodeId id : aggregations) rest -= builder_.properties(id).cost;
+        if (rest < worth_separating || !several.are_enough() || !several.can_store(*store)) return;
+
+        std::map<ir::NodeId, ir::NodeId> elements;
+        for (const ir::NodeId id : aggregations)
+            elements[id] = table_of(id, "part", nest.variables, before);
+        store->value = ir::replace_in(builder_, store->value, elements);
+        loop.several_at_once = true;
+        report_["loops whose aggregations are computed before"] += 1;
+    }
+
+    // The outermost ones; false if there is one that must stay where it is.
+    bool find_aggregations(ir::NodeId id, const Variables& variables,
+                           std::vector<ir::NodeId>& found) const {
+        const ir::Node& node = program_[id];
+        if (std::holds_alternative<ir::Reduce>(node.form)) {
+            const ir::Properties& properties = builder_.properties(id);
+            if (properties.may_fault || properties.random || node.type == ir::Scalar::Int ||
+                !is_over(properties, variables))
+                return false;
+            if (std::ranges::find(found, id) == found.end()) found.push_back(id);
+            return true;
+        }
+        if (const auto* select = std::get_if<ir::Select>(&node.form))
+            return find_aggregations(select->condition, variables, found) &&
+                   has_none(select->then_value) && has_none(select->else_value);
+        return std::ranges::all_of(ir::operands_of(node), [&](ir::NodeId operand) {
+            return find_aggregations(operand, variables, found);
+        });
+    }
+    bool reads(ir::NodeId id, ir::BufferId buffer) const {
+        return ir::buffer_read_by(program_[id]) == buffer ||
+               std::ranges::any_of(ir::operands_of(program_[id]),
+                                   [&](ir::NodeId operand) { return reads(operand, buffer); });
+    }
+    bool has_none(ir::NodeId id) const {
+        std::vector<ir::NodeId> found;
+        return find_aggregations(id, {}, found) && found.empty();
+    }
+
+    // A table of these variables can hold it: nothing else around it, such as the draw of an object
+    // (DiscreteOver), binds what it depends on.
+    static bool is_over(const ir::Properties& properties, const Variables& variables) {
+        return std::ranges::all_of(properties.free_variables, [&](ir::VariableId variable) {
+            return std::ranges::find(variables, variable) != variables.end();
+        });
+    }
+
+    // ---------------------------------------------------------------------------- terms of sums
+
+    // A value outside of loops, the terms of whose sums are tables.
+    ir::NodeId with_terms(ir::NodeId value, ir::Block& before) {
+        std::map<ir::NodeId, ir::NodeId> known;
+        return ir::replace_in(builder_, value, known,
+                              [&](ir::NodeId id) { return sum_of_table(id, before); });
+    }
+
+    std::optional<ir::NodeId> sum_of_table(ir::NodeId id, ir::Block& before) {
+        const bool is_branch = std::holds_alternative<ir::Select>(program_[id].form);
+        if (is_branch) return id;  // what is in it is not always evaluated
+        if (!std::holds_alternative<ir::Reduce>(program_[id].form)) return std::nullopt;
+        const auto sum = ir::reduction_nest(program_, id);
+        if (!sum || sum->op != Reduction::Sum || !is_worth_a_table(sum->variables, sum->body))
+            return id;
+        report_["sums whose terms are computed before"] += 1;
+        const ir::NodeId term = table_of(sum->body, "terms", sum->variables, before);
+        std::get<ir::Loop>(before.back().form).several_at_once = true;
+        return ir::reduced(builder_, sum->op, sum->variables, term);
+    }
+
+    bool is_worth_a_table(const Variables& variables, ir::NodeId term) const {
+        const ir::Properties& properties = builder_.properties(term);
+        if (program_[term].type != ir::Scalar::Real || properties.may_fault || properties.random ||
+            properties.cost < worth_separating || !is_over(properties, variables))
+            return false;
+        const ObjectLanes several = several_of({variables, nullptr}, nullptr);
+        return several.are_enough() && several.can_evaluate(term);
+    }
+
+    // ------------------------------------------------------------------------------------ tables
+
+    // An element of a new table with the values of a node, which `before` fills.
+    ir::NodeId table_of(ir::NodeId id, const std::string& what, const Variables& variables,
+                        ir::Block& before) {
+        const ir::BufferId table = builder_.tables().scratch(
+            name_ + "-" + what, program_[id].type, builder_.properties(id).range, variables, span_);
+        return ir::fill_table(builder_, before, table, variables, id);
+    }
+
+    ObjectLanes several_of(const ir::Nest& nest, std::function<bool(ir::NodeId)> is_element) const {
+        return {program_,
+                [&](ir::NodeId id) -> const ir::Properties& { return builder_.properties(id); },
+                nest, std::move(is_element)};
+    }
+
+    ir::Program program_;
+    Report& report_;
+    ir::Builder builder_;
+    std::string name_;  // of what is computed
+    Span span_;
+};
+
+}  // namespace
+
+ir::Program separate_aggregations(ir::Program program, Report& report) {
+    return Separation(std::move(program), report).run();
+}
+
+}  // namespace rddlc::passes

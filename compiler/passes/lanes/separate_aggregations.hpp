@@ -1,0 +1,29 @@
+// Fills tables so that loops can be evaluated for several objects at once (evaluate_together.hpp).
+//
+// What a loop aggregates for each of its objects is computed before it:
+//
+//     for t in tank                                   for t in tank
+//         next.level[t] = sample normal@0[t](0, 1)        level-part[t] = sum[e in row](flow[e])
+//                         + sum[e in row](flow[e])  =>  for t in tank
+//                                                         next.level[t] = sample normal@0[t](0, 1)
+//                                                                         + level-part[t]
+//
+// The terms of a sum of reals are computed before they are added:
+//
+//     sum[t in tank](select(next.level[t] > 9, cost[t], 0))
+//                                                 =>  for t in tank
+//                                                         reward-terms[t] = select(...)
+//                                                     sum[t in tank](reward-terms[t])
+//
+// Nothing is computed more often than before, so aggregations in branches stay there, as do those
+// that may fault.
+#pragma once
+
+#include "ir/ir.hpp"
+#include "passes/report.hpp"
+
+namespace rddlc::passes {
+
+ir::Program separate_aggregations(ir::Program program, Report& report);
+
+}  // namespace rddlc::passes
