@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
+#include <unistd.h>
 
 #include <chrono>
 #include <filesystem>
@@ -18,6 +19,54 @@ namespace rddlc::studio {
 namespace {
 
 using nlohmann::json;
+
+// A folder of this process, which ends with it.
+class TestFolder {
+  public:
+    TestFolder()
+        : path(std::filesystem::path(testing::TempDir()) /
+               ("rddlc_studio_" + std::to_string(getpid()))) {
+        std::filesystem::create_directories(path);
+    }
+    ~TestFolder() {
+        std::error_code ignored;
+        std::filesystem::remove_all(path, ignored);
+    }
+    TestFolder(const TestFolder&) = delete;
+    TestFolder& operator=(const TestFolder&) = delete;
+
+    std::string write(const std::string& name, const std::string& text) const {
+        UsedFiles used;
+        write_file(path / name, text, used);
+        return (path / name).string();
+    }
+
+    const std::filesystem::path path;
+};
+
+// The working folder, until it ends.
+class WorkingFolder {
+  public:
+    explicit WorkingFolder(const std::filesystem::path& folder) {
+        std::filesystem::current_path(folder);
+    }
+    ~WorkingFolder() {
+        std::error_code ignored;
+        std::filesystem::current_path(before_, ignored);
+    }
+    WorkingFolder(const WorkingFolder&) = delete;
+    WorkingFolder& operator=(const WorkingFolder&) = delete;
+
+  private:
+    const std::filesystem::path before_ = std::filesystem::current_path();
+};
+
+// A policy block that raises the alarm at once.
+const std::string alarming = R"(policy alarming {
+    domain = tanks;
+    cpfs { alarm = true; release(?t) = 0.0; };
+}
+)";
 
 class StudioTest : public testing::Test {
   protected:
@@ -218,13 +267,78 @@ TEST_F(StudioTest, ComparesWithPairedLuck) {
     EXPECT_EQ(finished_job("compare")["state"], "failed");
 }
 
+TEST_F(StudioTest, TwoPolicyBlocksAreNotComparedAsOne) {
+    const TestFolder folder;
+    const std::string file = folder.write("alarming.rddl", alarming);
+    json wish = {{"domain", tanks_domain}, {"instance", tanks_instance},
+                 {"first", file},          {"second", "rddl"},
+                 {"episodes", 20},         {"seed", 3}};
+    ask("compare", wish, 422);
+    wish["second"] = "noop";
+    ask("compare", wish);
+    const json status = finished_job("compare");
+    ASSERT_EQ(status["state"], "done") << status;
+    EXPECT_NEAR(status["result"]["difference"]["mean"].get<double>(), 20, 1e-9);
+    EXPECT_EQ(status["result"]["policies"][0]["policy"], file);
+}
+
+TEST_F(StudioTest, EpisodesKeepTheirPolicyBlock) {
+    const TestFolder folder;
+    const std::string file = folder.write("alarming.rddl", alarming);
+    const std::string other = folder.write("other.rddl", alarming);
+    EXPECT_EQ(load()["problem"]["policy_block"], "");
+    ask("run", {{"player", "p"}, {"policy", file}}, 422);
+    const json loaded = ask("load", {{"player", "p"},
+                                     {"domain", tanks_domain},
+                                     {"instance", tanks_instance},
+                                     {"policy", file}});
+    EXPECT_EQ(loaded["problem"]["policy_block"], file);
+    for (const std::string& policy : {std::string("rddl"), other}) {
+        ask("run", {{"player", "p"}, {"policy", policy}}, 422);
+        ask("advice", {{"player", "p"}, {"policy", policy}, {"step", 0}}, 422);
+    }
+    EXPECT_EQ(ask("advice", {{"player", "p"}, {"policy", file}, {"step", 0}})["action"]["alarm"],
+              true);
+    ask("run", {{"player", "p"}, {"policy", file}, {"steps", 1}});
+    EXPECT_EQ(finished_news()["moments"][0]["by"], file);
+    ask("run", {{"player", "p"}, {"policy", "noop"}, {"steps", 1}});
+    EXPECT_EQ(finished_news()["now"], 2);
+}
+
+// The derivatives are those of the texts on the page, which are in no file.
+TEST_F(StudioTest, PlansWithDerivatives) {
+    load();
+    const std::string planner = "plan:gradient,iterations=1";
+    ask("run", {{"player", "p"}, {"policy", planner}, {"steps", 1}});
+    const json run = finished_news()["run"];
+    EXPECT_EQ(run["state"], "done") << run;
+    ask("compare", {{"domain", tanks_domain},
+                    {"instance", tanks_instance},
+                    {"first", "noop"},
+                    {"second", planner},
+                    {"horizon", 2},
+                    {"episodes", 1}});
+    const json status = finished_job("compare");
+    EXPECT_EQ(status["state"], "done") << status;
+}
+
+TEST_F(StudioTest, TabsThatMakeRoomStopTheirJobs) {
+    const TestFolder folder;
+    const WorkingFolder working(folder.path);
+    load();
+    ask("run", {{"player", "p"}, {"policy", "plan:cem,seconds=100"}});
+    ask("train", {{"domain", tanks_domain},
+                  {"instance", tanks_instance},
+                  {"solver", "cgp"},
+                  {"seconds", 600}});
+    for (int k = 0; k < 64; ++k) ask("ping", {{"tab", "tab " + std::to_string(k)}});
+    EXPECT_EQ(ask("job", {{"job", "train"}})["state"], "absent");  // it is a new tab of this name
+    EXPECT_TRUE(studio.jobs_end(std::chrono::seconds(20)));
+}
+
 TEST_F(StudioTest, TrainsAndStops) {
-    const std::filesystem::path before = std::filesystem::current_path();
-    const std::filesystem::path folder =
-        std::filesystem::path(testing::TempDir()) / "rddlc_studio_test";
-    std::filesystem::remove_all(folder);
-    std::filesystem::create_directories(folder);
-    std::filesystem::current_path(folder);
+    const TestFolder folder;
+    const WorkingFolder working(folder.path);
     json wish = {{"domain", tanks_domain},
                  {"instance", tanks_instance},
                  {"solver", "cgp"},
@@ -248,7 +362,6 @@ TEST_F(StudioTest, TrainsAndStops) {
     EXPECT_NE(ask("train", wish, 422)["error"].get<std::string>().find("gens"), std::string::npos);
     wish["solver"] = "dqn";
     ask("train", wish, 422);
-    std::filesystem::current_path(before);
 }
 
 TEST_F(StudioTest, TabsAreIndependent) {
@@ -288,25 +401,33 @@ TEST_F(StudioTest, WrongRequestsAreRefusedAndHarmless) {
 }
 
 TEST(SavedTextsTest, FilesAreWrittenOnlyWhereNothingIsLost) {
-    const std::filesystem::path folder =
-        std::filesystem::path(testing::TempDir()) / "rddlc_studio_files";
-    std::filesystem::remove_all(folder);
-    std::filesystem::create_directories(folder);
-    UsedFiles used;
-    write_file(folder / "domain.rddl", tanks_domain, used);
-    write_file(folder / "instance.rddl", tanks_instance, used);
+    const TestFolder folder;
     workbench::ProblemFiles files;
-    files.domain = folder / "domain.rddl";
-    files.instance = folder / "instance.rddl";
+    files.domain = folder.write("domain.rddl", tanks_domain);
+    files.instance = folder.write("instance.rddl", tanks_instance);
     const OpenedProblem opened = open_problem(files);
     const Texts read{opened.domain, opened.instance};
-    save_texts(opened, {"new", tanks_instance}, read, false);
+    Texts known = read;
+    save_texts(opened, {"new", tanks_instance}, known, false);
     EXPECT_EQ(read_file(files.domain), "new");
-    EXPECT_THROW(save_texts(opened, {"newer", tanks_instance}, read, false), Failure);
+    EXPECT_EQ(known.domain, "new");
+    known = read;
+    EXPECT_THROW(save_texts(opened, {"newer", tanks_instance}, known, false), Failure);
     EXPECT_EQ(read_file(files.domain), "new");
-    save_texts(opened, {"newer", tanks_instance}, read, true);
+    save_texts(opened, {"newer", tanks_instance}, known, true);
     EXPECT_EQ(read_file(files.domain), "newer");
-    EXPECT_THROW(save_texts(tanks(), {"", ""}, {}, true), Failure);  // a copy
+    Texts none;
+    EXPECT_THROW(save_texts(tanks(), {"", ""}, none, true), Failure);  // a copy
+    // A file that is gone is not written without a word.
+    std::filesystem::remove(*files.instance);
+    EXPECT_THROW(save_texts(opened, {"newest", "i"}, known, false), Failure);
+    EXPECT_EQ(read_file(files.domain), "newer");
+    // Where the second file cannot be written, the first one is known as it was written.
+    std::filesystem::create_directories(*files.instance / "in_the_way");
+    EXPECT_THROW(save_texts(opened, {"newest", "i"}, known, true), Failure);
+    EXPECT_EQ(read_file(files.domain), "newest");
+    EXPECT_EQ(known.domain, "newest");
+    EXPECT_EQ(known.instance, tanks_instance);
 }
 
 }  // namespace

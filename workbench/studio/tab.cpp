@@ -4,6 +4,7 @@
 #include "lsp/reference.hpp"
 #include "planners/planner/planner_policy.hpp"
 #include "studio/comparison.hpp"
+#include "studio/policy_name.hpp"
 #include "studio/training.hpp"
 #include "support/failure.hpp"
 #include "support/json_text.hpp"
@@ -50,17 +51,6 @@ std::int64_t horizon_in(const Wish& wish) {
     return number_in<std::int64_t>(wish, "horizon", 0, 0, longest_episode);
 }
 
-// "FILE.rddl" is a file with a policy block, as for `rddl run --policy`.
-bool is_policy_block(const std::string& policy) {
-    return policy.ends_with(".rddl");
-}
-std::string block_of(const std::string& policy) {
-    return is_policy_block(policy) ? policy : "";
-}
-std::string name_of_policy(const std::string& policy) {
-    return is_policy_block(policy) ? "rddl" : policy;
-}
-
 std::string policy_in(const Wish& wish, const char* name = "policy") {
     const std::string policy = wish.at(name).get<std::string>();
     if (planners::is_planner(policy)) planners::require_planner(policy);
@@ -88,11 +78,16 @@ Json planner_names() {
 
 }  // namespace
 
-Tab::Tab(const TabContext& context)
-    : context_(context),
-      language_(context.problem.files.standard),
-      saved_{context.problem.domain, context.problem.instance} {
+Tab::Tab(std::shared_ptr<const TabContext> context)
+    : context_(std::move(context)),
+      language_(context_->problem.files.standard),
+      saved_{context_->problem.domain, context_->problem.instance} {
     language_.handle({{"jsonrpc", "2.0"}, {"id", 0}, {"method", "initialize"}});
+}
+
+Tab::~Tab() {
+    for (const auto& [name, player] : players_) player->stop_soon();
+    for (const auto& [name, job] : jobs_) job->stop();
 }
 
 Texts Tab::texts_of(const Wish& wish) {
@@ -124,7 +119,7 @@ Reply Tab::answer(const std::string& request, const Wish& wish) {
 // ------------------------------------------------------------------------------------- texts
 
 Reply Tab::open(const Wish&) {
-    const OpenedProblem& problem = context_.problem;
+    const OpenedProblem& problem = context_->problem;
     const std::scoped_lock lock(mutex_);
     return reply({{"name", problem.name},
                   {"domain_name", domain_name(problem)},
@@ -158,6 +153,8 @@ Reply Tab::language(const Wish& wish) {
     return {.body = fmt::format(R"({{"messages":{}}})", json_line(Json(answers)))};
 }
 
+// Tells the page that the program lives, and the program that the tab does: it is not the one that
+// makes room for a new one.
 Reply Tab::ping(const Wish&) {
     return {};
 }
@@ -165,8 +162,7 @@ Reply Tab::ping(const Wish&) {
 Reply Tab::save(const Wish& wish) {
     const Texts texts = texts_of(wish);
     const std::scoped_lock lock(mutex_);
-    save_texts(context_.problem, texts, saved_, wish.value("force", false));
-    saved_ = texts;
+    save_texts(context_->problem, texts, saved_, wish.value("force", false));
     return {};
 }
 
@@ -174,14 +170,13 @@ Reply Tab::save(const Wish& wish) {
 
 Reply Tab::load(const Wish& wish) {
     const std::string name = wish.at("player");
-    const std::string policy = text_in(wish, "policy", "");
-    const PlayerOptions options{seed_in(wish),
+    const std::string block = block_of(text_in(wish, "policy", "")).value_or("");
+    const PlayerOptions options{block, seed_in(wish),
                                 number_in<std::int64_t>(wish, "episode", 0, 0, longest_episode),
                                 horizon_in(wish)};
-    const auto fresh =
-        std::make_shared<Player>(load_texts(context_.problem, texts_of(wish), context_.load,
-                                            Purpose::Stepping, block_of(policy)),
-                                 options);
+    const auto fresh = std::make_shared<Player>(
+        load_texts(context_->problem, texts_of(wish), context_->load, Purpose::Stepping, block),
+        options);
     const Json description = fresh->description();
     std::shared_ptr<Player> before;
     {
@@ -219,13 +214,13 @@ Reply Tab::step(const Wish& wish) {
 
 Reply Tab::advice(const Wish& wish) {
     const std::string action =
-        player(wish)->advice(*context_.workers, name_of_policy(policy_in(wish)),
+        player(wish)->advice(*context_->workers, policy_in(wish),
                              number_in<std::size_t>(wish, "step", 0, 0, longest_episode));
     return {.body = fmt::format(R"({{"action":{}}})", action)};
 }
 
 Reply Tab::run(const Wish& wish) {
-    player(wish)->run(context_.workers, name_of_policy(policy_in(wish)),
+    player(wish)->run(context_->workers, policy_in(wish),
                       number_in<std::int64_t>(wish, "steps", longest_episode, 1, longest_episode));
     return {};
 }
@@ -269,18 +264,19 @@ void Tab::put_job(const std::string& name, std::shared_ptr<Job> job) {
 
 Reply Tab::compare(const Wish& wish) {
     ComparisonOptions options;
-    const std::string first = policy_in(wish, "first"), second = policy_in(wish, "second");
-    options.policies = {name_of_policy(first), name_of_policy(second)};
+    options.policies = {policy_in(wish, "first"), policy_in(wish, "second")};
     options.episodes = number_in<std::int64_t>(wish, "episodes", 100, 1, 1'000'000);
     options.seed = seed_in(wish);
     options.horizon = horizon_in(wish);
-    const std::string block = block_of(first).empty() ? block_of(second) : block_of(first);
-    if (is_policy_block(first) && is_policy_block(second) && first != second)
-        throw Failure("two files with policy blocks cannot be compared");
-    put_job("compare", Job::start(context_.workers, [&context = context_, texts = texts_of(wish),
-                                                     options, block](Job& job) {
+    const auto first = block_of(options.policies[0]), second = block_of(options.policies[1]);
+    if (first && second && *first != *second)
+        throw Failure("two policy blocks cannot be compared, since a problem is loaded with one",
+                      "compare each of them with another policy");
+    const std::string block = first.value_or(second.value_or(""));
+    put_job("compare", Job::start(context_->workers, [context = context_, texts = texts_of(wish),
+                                                      options, block](Job& job) {
                 const LoadedProblem problem =
-                    load_texts(context.problem, texts, context.load, Purpose::Episodes, block);
+                    load_texts(context->problem, texts, context->load, Purpose::Episodes, block);
                 return studio::compare(job, problem, options);
             }));
     return {};
@@ -294,14 +290,14 @@ Reply Tab::train(const Wish& wish) {
     training.seconds = number_in(wish, "seconds", 60.0, 0.1, 1e6);
     training.seed = seed_in(wish);
     // As `rddl train` names them, so that it resumes the run.
-    const bool is_float = context_.load.real == RealType::Float;
+    const bool is_float = context_->load.real == RealType::Float;
     training.settings = {{"--real", is_float ? "float" : "double"},
-                         {"--fast-math", context_.load.passes.fast_math ? "true" : "false"}};
+                         {"--fast-math", context_->load.passes.fast_math ? "true" : "false"}};
     require_options(training);
-    put_job("train", Job::start(context_.workers, [&context = context_, texts = texts_of(wish),
-                                                   training](Job& job) mutable {
+    put_job("train", Job::start(context_->workers, [context = context_, texts = texts_of(wish),
+                                                    training](Job& job) mutable {
                 const LoadedProblem problem =
-                    load_texts(context.problem, texts, context.load, Purpose::Episodes);
+                    load_texts(context->problem, texts, context->load, Purpose::Episodes);
                 training.folder = new_run_folder(problem.simulator->problem->instance,
                                                  training.solver, training.seed);
                 return studio::train(job, problem, training);

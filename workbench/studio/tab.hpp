@@ -32,8 +32,9 @@ struct TabContext {
 
 class Tab {
   public:
-    // The context must outlive it.
-    explicit Tab(const TabContext& context);
+    explicit Tab(std::shared_ptr<const TabContext> context);
+    // Stops its jobs and episodes, and does not wait for them.
+    ~Tab();
 
     // Throws a Failure, or an exception of JSON, if the request is not right.
     Reply answer(const std::string& request, const nlohmann::json& wish);
@@ -60,7 +61,7 @@ class Tab {
     void put_job(const std::string& name, std::shared_ptr<Job> job);
     static Texts texts_of(const nlohmann::json& wish);
 
-    const TabContext& context_;
+    const std::shared_ptr<const TabContext> context_;  // jobs may outlive the tab
     std::mutex language_mutex_;
     lsp::Session language_;
     std::mutex mutex_;  // of all below

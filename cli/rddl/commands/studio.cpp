@@ -54,8 +54,10 @@ void show_in_browser(const std::string& address) {
 }
 
 ExitStatus serve_studio(const StudioArguments& arguments) {
-    studio::Studio room(opened_problem(arguments.problem), {arguments.load});
-    studio::StudioServer server(room, arguments.server);
+    studio::StudioServer server(
+        std::make_shared<studio::Studio>(opened_problem(arguments.problem),
+                                         studio::StudioOptions{arguments.load}),
+        arguments.server);
     print("{}\n", server.address());
     std::fflush(stdout);
     tell("rddl studio: open this address in a browser of this machine; Ctrl-C ends it\n");
@@ -75,8 +77,7 @@ Command studio_command() {
     command.summary = "Write and try a problem on a page in the browser";
     command.details =
         "Prints the address of the page, which only this machine reaches, with a secret of this "
-        "run "
-        "in it.\n"
+        "run in it.\n"
         "Without a problem it begins with a small one. docs/studio.md describes the page.\n\n"
         "Examples:\n"
         "  rddl studio\n"

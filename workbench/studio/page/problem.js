@@ -284,7 +284,7 @@ async function save(force = false) {
     keepDraft();
     byId("about").textContent = "saved";
   } catch (error) {
-    if (error instanceof Refused && /another program has changed/.test(error.message)) byId("save").textContent = "Save over it";
+    if (error instanceof Refused && /another program has/.test(error.message)) byId("save").textContent = "Save over it";
     byId("about").textContent = error.message;
   }
 }

@@ -88,6 +88,32 @@ export async function poll(step, pause) {
   }
 }
 
+// Follows a job of this tab to its end, and returns its last status. Its button stops it meanwhile.
+export async function followJob(job, stopButton, pause, show) {
+  stopButton.hidden = false;
+  let status;
+  try {
+    await poll(async () => {
+      status = await ask("job", { job });
+      show(status);
+      return status.state === "running";
+    }, pause);
+  } finally {
+    stopButton.hidden = true;
+  }
+  return status;
+}
+
+// Makes listeners whose errors are told.
+export const guardedBy = (tell) => (act) => async (event) => {
+  event?.preventDefault?.();
+  try {
+    await act();
+  } catch (error) {
+    tell(error.message, true);
+  }
+};
+
 export const byId = (id) => document.getElementById(id);
 export function make(tag, properties = {}, ...children) {
   const element = Object.assign(document.createElement(tag), properties);
