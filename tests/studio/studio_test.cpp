@@ -4,11 +4,11 @@
 #include "studio/drawing.hpp"
 #include "studio/training.hpp"
 #include "support/failure.hpp"
+#include "test_folder.hpp"
 #include "texts.hpp"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
-#include <unistd.h>
 
 #include <chrono>
 #include <filesystem>
@@ -19,30 +19,6 @@ namespace rddlc::studio {
 namespace {
 
 using nlohmann::json;
-
-// A folder of this process, which ends with it.
-class TestFolder {
-  public:
-    TestFolder()
-        : path(std::filesystem::path(testing::TempDir()) /
-               ("rddlc_studio_" + std::to_string(getpid()))) {
-        std::filesystem::create_directories(path);
-    }
-    ~TestFolder() {
-        std::error_code ignored;
-        std::filesystem::remove_all(path, ignored);
-    }
-    TestFolder(const TestFolder&) = delete;
-    TestFolder& operator=(const TestFolder&) = delete;
-
-    std::string write(const std::string& name, const std::string& text) const {
-        UsedFiles used;
-        write_file(path / name, text, used);
-        return (path / name).string();
-    }
-
-    const std::filesystem::path path;
-};
 
 // The working folder, until it ends.
 class WorkingFolder {
