@@ -6,6 +6,7 @@ import time
 import unittest
 
 from studio import CAR, CTRL, HAS_RUN, RDDL, STEP, PageTest, Window, require_browser
+from test_sessions import Sessions  # noqa: F401: runs here, in the same browser
 
 require_browser()
 CARET = "[...document.querySelectorAll('.editor')].find((each) => !each.hidden).querySelector('textarea').selectionStart"

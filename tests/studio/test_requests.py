@@ -64,10 +64,11 @@ class Requests(unittest.TestCase):
         self.assertNotIn(f"00000000:{self.program.port:04X}", places)
 
     def test_bodies_have_a_limit(self):
+        too_many = (1 << 26) + 1
         connection = socket.create_connection(("127.0.0.1", self.program.port))
         head = (f"POST /api/open HTTP/1.1\r\nHost: 127.0.0.1:{self.program.port}\r\nX-Rddl-Token: {self.program.token}\r\n"
-                f"Content-Type: application/json\r\nContent-Length: {1 << 34}\r\n\r\n")
-        connection.sendall(head.encode() + b"x" * 1000)
+                f"Content-Type: application/json\r\nContent-Length: {too_many}\r\n\r\n")
+        connection.sendall(head.encode() + b"x" * too_many)
         self.assertIn(b"413", connection.recv(100))
         connection.close()
         # Bytes that are no request, and a client that says nothing, hold up no other one.
@@ -167,8 +168,8 @@ class Running(unittest.TestCase):
         self.assertEqual((self.folder / "domain.rddl").read_text(), texts["domain"])
 
     def test_a_problem_that_takes_long_holds_up_nobody(self):
-        """Its texts have 3 MB, it is loaded for seconds, and a step takes seconds: a run of it takes minutes."""
-        names = [f"o{k}" for k in range(400)]
+        """Its texts have 600 KB, it is loaded for a second, and a step takes long: a run of it takes minutes."""
+        names = [f"o{k}" for k in range(200)]
         domain = ("domain d { types { t : object; }; pvariables { N(t, t) : { non-fluent, real, default = 1.0 }; "
                   "p(t, t) : { state-fluent, real, default = 0.0 }; a : { action-fluent, bool, default = false }; }; "
                   "cpfs { p'(?x, ?y) = p(?x, ?y) + N(?x, ?y) * sum_{?z : t} [p(?x, ?z) * N(?z, ?y)]; }; reward = a; }")
@@ -185,7 +186,7 @@ class Running(unittest.TestCase):
 
         thread = threading.Thread(target=lambda: program.ask("load", player="p", domain=domain, instance=instance), daemon=True)
         thread.start()
-        time.sleep(0.3)
+        time.sleep(0.2)
         quick("open", tab="other")
         quick("ping")
         self.assertTrue(thread.is_alive())  # else this shows nothing
