@@ -64,8 +64,8 @@ class Program:
         connection.close()
         return result
 
-    def ask(self, request: str, tab="t", status=200, **wish):
-        found, headers, body = self.send("POST", f"/api/{request}", {"tab": tab, **wish})
+    def ask(self, request: str, tab="t", status=200, **members):
+        found, headers, body = self.send("POST", f"/api/{request}", {"tab": tab, **members})
         assert found == status, (request, found, body)
         return json.loads(body) if headers["Content-Type"] == "application/json" else body
 

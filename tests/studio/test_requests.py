@@ -91,7 +91,7 @@ class Requests(unittest.TestCase):
                                   check=True).stdout.splitlines()
         for force in forces:
             self.assertEqual(self.program.ask("step", player="p", action={name: force}), {})
-        moments = self.program.ask("news", player="p")["moments"]
+        moments = self.program.ask("updates", player="p")["moments"]
         for k, line in enumerate(map(json.loads, replayed)):
             self.assertEqual(moments[k + 1]["state"], line["state"])
             self.assertEqual(moments[k]["reward"], line["reward"])
@@ -104,9 +104,9 @@ class Requests(unittest.TestCase):
             try:
                 self.program.ask("load", tab=tab, player="p", seed=int(tab), **texts)
                 self.program.ask("run", tab=tab, player="p", policy="random", steps=50)
-                while self.program.ask("news", tab=tab, player="p")["run"]["state"] == "running":
+                while self.program.ask("updates", tab=tab, player="p")["run"]["state"] == "running":
                     pass
-                assert self.program.ask("news", tab=tab, player="p")["now"] == 50
+                assert self.program.ask("updates", tab=tab, player="p")["now"] == 50
             except Exception as error:  # noqa: BLE001
                 failures.append(error)
 
@@ -178,9 +178,9 @@ class Running(unittest.TestCase):
                     "domain = d; non-fluents = n; init-state { p(o1, o2) = 1.0; }; max-nondef-actions = 1; horizon = 500; discount = 1.0; }")
         program = self.start()
 
-        def quick(request, **wish):
+        def quick(request, **members):
             begin = time.monotonic()
-            answer = program.ask(request, **wish)
+            answer = program.ask(request, **members)
             self.assertLess(time.monotonic() - begin, 1.5)
             return answer
 
@@ -193,7 +193,7 @@ class Running(unittest.TestCase):
         thread.join()
         program.ask("run", player="p", policy="noop")
         time.sleep(0.3)
-        self.assertEqual(quick("news", player="p", since=1)["run"]["state"], "running")
+        self.assertEqual(quick("updates", player="p", since=1)["run"]["state"], "running")
         quick("open", tab="other")
         status, seconds = program.end()  # in the middle of a step
         self.assertEqual(status, 130)

@@ -17,8 +17,8 @@ struct PictureSize {
     int width = 600, height = 400;  // pixels, from 16 to 4,096
 };
 
-// What a picture shows: a moment, and those before it that leave traces. Copies, so that the
-// episode may go on while they are drawn.
+// The part of an episode that a picture shows: a moment, and those before it that leave traces.
+// They are copies, so that the episode may go on while they are drawn.
 struct DrawnMoments {
     std::size_t first = 0;        // the number of the first one
     std::vector<Moment> moments;  // those parts of them that are drawn

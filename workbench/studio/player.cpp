@@ -89,11 +89,11 @@ void Player::go_to(std::size_t moment) {
     episode_.go_to(moment);
 }
 
-std::string Player::step(const nlohmann::json& values, bool insists) {
+std::string Player::step(const nlohmann::json& values, bool force) {
     const std::scoped_lock run_lock(run_mutex_);
     halt();
     const Record action = episode_.read_action(values);
-    if (const std::string why = episode_.violation_of(action); !why.empty() && !insists) return why;
+    if (const std::string why = episode_.violation_of(action); !why.empty() && !force) return why;
     MadeStep made = episode_.make_step(action);
     const std::scoped_lock lock(mutex_);
     episode_.keep(std::move(made), "you");
@@ -172,7 +172,7 @@ Json Player::run_steps(Job& job, const std::string& policy, std::int64_t steps) 
     return nullptr;
 }
 
-std::string Player::news(std::uint64_t branch, std::size_t since) const {
+std::string Player::updates(std::uint64_t branch, std::size_t since) const {
     const std::scoped_lock lock(mutex_);
     const std::size_t count = episode_.moments().size();
     // The last moment that the page has is sent again: an action may have been added to it.

@@ -32,11 +32,11 @@ class Player : public std::enable_shared_from_this<Player> {
     // The facts of the problem that the page shows: action-fluents with their ranges, ...
     Json description() const;
 
-    // Each stops what runs, and throws a Failure for a wrong wish. A policy is named as
+    // Each stops what runs, and throws a Failure for a wrong request. A policy is named as
     // users do, and refused if it is another policy block than the problem was loaded with.
     void go_to(std::size_t moment);
-    // Returns why the action is illegal, and takes it only if `insists`; empty: it was taken.
-    std::string step(const nlohmann::json& action, bool insists);
+    // Returns why the action is illegal, and takes it only if `force`; empty: it was taken.
+    std::string step(const nlohmann::json& action, bool force);
     // The action that the policy would take at the moment, as JSON of the values that differ from
     // their defaults.
     std::string advice(const Workers& workers, const std::string& policy, std::size_t moment);
@@ -49,7 +49,7 @@ class Player : public std::enable_shared_from_this<Player> {
 
     // The moments from `since` on, at most so many as fit into a message, and the state of the run.
     // `branch` counts how often moments were replaced: where it is not the page's, all are sent.
-    std::string news(std::uint64_t branch, std::size_t since) const;
+    std::string updates(std::uint64_t branch, std::size_t since) const;
     std::string picture(std::size_t moment, const std::string& visualizer, PictureSize size) const;
 
   private:

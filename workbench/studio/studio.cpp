@@ -61,11 +61,11 @@ std::shared_ptr<Tab> Studio::tab_of(const std::string& id) {
     return entry.tab;
 }
 
-Reply Studio::answer(const std::string& request, std::string_view body) {
+Reply Studio::answer(const std::string& name, std::string_view body) {
     try {
-        const nlohmann::json wish = parse_json(body);
-        if (!wish.is_object()) throw Failure("the request is not a JSON object");
-        return tab_of(wish.at("tab").get<std::string>())->answer(request, wish);
+        const nlohmann::json request = parse_json(body);
+        if (!request.is_object()) throw Failure("the request is not a JSON object");
+        return tab_of(request.at("tab").get<std::string>())->answer(name, request);
     } catch (const Failure& failure) {
         return refusal(422, failure.what(), failure.hint);
     } catch (const RefusedJson& error) {

@@ -29,7 +29,7 @@ class Studio {
 
     // The answer to the request of that name, such as "step". `body` is the text of a JSON object
     // with the member "tab": tabs know nothing of each other.
-    Reply answer(const std::string& request, std::string_view body);
+    Reply answer(const std::string& name, std::string_view body);
 
     // Stops all jobs, also those that begin later. Returns whether all have ended in two seconds.
     bool stop();

@@ -61,10 +61,10 @@ export class Episode {
     return this.run?.state === "running";
   }
 
-  async load(wish) {
-    const { problem, news } = await ask("load", { ...wish, player: this.player });
+  async load(request) {
+    const { problem, updates } = await ask("load", { ...request, player: this.player });
     this.begin(problem);
-    this.take(news);
+    this.take(updates);
     this.show(0);
   }
 
@@ -87,26 +87,26 @@ export class Episode {
     this.charts.replaceChildren();
   }
 
-  take(news) {
-    if (news.branch !== this.branch && this.isThere) this.dropped = this.moments;
-    if (news.branch !== this.branch) this.moments = [];
-    this.branch = news.branch;
-    this.moments.splice(news.first, this.moments.length, ...news.moments);
-    this.now = news.now;
-    this.run = news.run;
-    return this.moments.length < news.count || this.isRunning;
+  take(updates) {
+    if (updates.branch !== this.branch && this.isThere) this.dropped = this.moments;
+    if (updates.branch !== this.branch) this.moments = [];
+    this.branch = updates.branch;
+    this.moments.splice(updates.first, this.moments.length, ...updates.moments);
+    this.now = updates.now;
+    this.run = updates.run;
+    return this.moments.length < updates.count || this.isRunning;
   }
 
-  // Gets what is new; whether more is to come.
+  // Gets what is new. Returns whether more is to come.
   async update() {
-    return this.take(await ask("news", { player: this.player, branch: this.branch, since: this.moments.length }));
+    return this.take(await ask("updates", { player: this.player, branch: this.branch, since: this.moments.length }));
   }
 
-  // Until what runs has ended. Pictures follow at the speed of the player that calls.
-  async follow(onNews = () => {}) {
+  // Waits until what runs has ended. Pictures follow at the speed of the player that calls.
+  async follow(onUpdates = () => {}) {
     await poll(async () => {
       const goesOn = await this.update();
-      onNews();
+      onUpdates();
       return goesOn;
     }, 120);
     if (this.run?.state === "failed") throw new Error(this.run.error);
@@ -118,9 +118,9 @@ export class Episode {
   }
 
   // The sentence why the action is illegal, or "".
-  async takeAction(action, insists) {
+  async takeAction(action, force) {
     if (this.now !== this.at || this.isRunning) await ask("go_to", { player: this.player, step: this.at });
-    const { violation } = await ask("step", { player: this.player, action, insists });
+    const { violation } = await ask("step", { player: this.player, action, force });
     await this.update();
     if (violation) return violation;
     this.show(this.at + 1);

@@ -53,14 +53,14 @@ export function watch(callback) {
   watcher = callback;
 }
 
-export async function ask(request, wish = {}, { binary = false } = {}) {
+export async function ask(request, members = {}, { binary = false } = {}) {
   let response;
   try {
     response = await fetch(`/api/${request}`, {
       method: "POST",
       cache: "no-store",
       headers: { "Content-Type": "application/json", "X-Rddl-Token": token },
-      body: JSON.stringify({ ...wish, tab }),
+      body: JSON.stringify({ ...members, tab }),
     });
   } catch {
     watcher("gone");

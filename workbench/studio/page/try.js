@@ -25,9 +25,9 @@ export function problemIsBroken(id) {
 async function begin() {
   if (problemIsBroken("try-message")) return false;
   tell("starting …");
-  const wish = texts();
-  await episode.load({ ...wish, seed: seedOf("seed"), policy: byId("policy").value.trim() });
-  loaded = JSON.stringify(wish);
+  const begun = texts();
+  await episode.load({ ...begun, seed: seedOf("seed"), policy: byId("policy").value.trim() });
+  loaded = JSON.stringify(begun);
   tell("");
   buildHand();
   transport.show(0);
@@ -143,9 +143,9 @@ function showHand() {
   for (const id of ["take", "ask"]) byId(id).disabled = isOver;
 }
 
-async function take(insists) {
+async function take(force) {
   transport.pause();
-  const violation = await episode.takeAction(chosenAction(), insists);
+  const violation = await episode.takeAction(chosenAction(), force);
   byId("take-anyway").hidden = !violation;
   transport.show(episode.at);
   const before = episode.moments[episode.at - 1];
