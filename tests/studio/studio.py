@@ -1,6 +1,8 @@
 """`rddl studio` as a test drives it: the program, requests without a browser, and tabs of a headless Chromium."""
 
+import atexit
 import base64
+import functools
 import http.client
 import json
 import os
@@ -62,8 +64,8 @@ class Program:
         connection.close()
         return result
 
-    def ask(self, request: str, tab="t", status=200, **wish):
-        found, headers, body = self.send("POST", f"/api/{request}", {"tab": tab, **wish})
+    def ask(self, request: str, tab="t", status=200, **members):
+        found, headers, body = self.send("POST", f"/api/{request}", {"tab": tab, **members})
         assert found == status, (request, found, body)
         return json.loads(body) if headers["Content-Type"] == "application/json" else body
 
@@ -100,6 +102,10 @@ class Window:
         self.evaluate("document.body.dataset.ready = 'no'")
         self.call("Page.reload")
         self.wait("document.body?.dataset.ready === 'yes'")
+
+    def ping(self) -> None:
+        """What the page does every three seconds: asks whether the program is there."""
+        self.evaluate("import('/server.js').then(({ ask }) => ask('ping')).catch(() => 0).then(() => 0)")
 
     def evaluate(self, expression: str):
         self.browser.session = self.session
@@ -189,8 +195,16 @@ def require_browser() -> None:
         sys.exit(77)
 
 
+@functools.cache
+def shared_browser() -> Browser:
+    """One start for all tests of a process. A name of an attacker leads to this machine."""
+    browser = Browser("--host-resolver-rules=MAP evil.example 127.0.0.1")
+    atexit.register(browser.close)
+    return browser
+
+
 class PageTest(unittest.TestCase):
-    """One program and one browser, with windows for each test. With RDDLC_SCREENSHOTS=FOLDER tests leave pictures of
+    """One program for each class, with windows for each test. With RDDLC_SCREENSHOTS=FOLDER tests leave pictures of
     each view at five sizes there."""
 
     @classmethod
@@ -202,9 +216,7 @@ class PageTest(unittest.TestCase):
             (cls.folder / path.name).write_text(path.read_text())
         cls.program = Program("domain.rddl", "instance.rddl", "--engine=interpreter", folder=cls.folder)
         cls.addClassCleanup(cls.program.close)
-        # A name of an attacker that leads to this machine.
-        cls.browser = Browser("--host-resolver-rules=MAP evil.example 127.0.0.1")
-        cls.addClassCleanup(cls.browser.close)
+        cls.browser = shared_browser()
         cls.origin = f"http://127.0.0.1:{cls.program.port}"
 
     def setUp(self) -> None:

@@ -4,6 +4,7 @@
 #include "studio/drawing.hpp"
 #include "studio/training.hpp"
 #include "support/failure.hpp"
+#include "test_folder.hpp"
 #include "texts.hpp"
 
 #include <gtest/gtest.h>
@@ -19,23 +20,47 @@ namespace {
 
 using nlohmann::json;
 
+// The working folder, until it ends.
+class WorkingFolder {
+  public:
+    explicit WorkingFolder(const std::filesystem::path& folder) {
+        std::filesystem::current_path(folder);
+    }
+    ~WorkingFolder() {
+        std::error_code ignored;
+        std::filesystem::current_path(before_, ignored);
+    }
+    WorkingFolder(const WorkingFolder&) = delete;
+    WorkingFolder& operator=(const WorkingFolder&) = delete;
+
+  private:
+    const std::filesystem::path before_ = std::filesystem::current_path();
+};
+
+// A policy block that raises the alarm at once.
+const std::string alarming = R"(policy alarming {
+    domain = tanks;
+    cpfs { alarm = true; release(?t) = 0.0; };
+}
+)";
+
 class StudioTest : public testing::Test {
   protected:
-    json ask(const std::string& request, json wish, int status = 200) {
-        wish.emplace("tab", "one");
-        const Reply reply = studio.answer(request, wish.dump());
-        EXPECT_EQ(reply.status, status) << request << ": " << reply.body;
+    json ask(const std::string& name, json request, int status = 200) {
+        request.emplace("tab", "one");
+        const Reply reply = studio.answer(name, request.dump());
+        EXPECT_EQ(reply.status, status) << name << ": " << reply.body;
         return json::parse(reply.body);
     }
     json load(const std::string& domain = tanks_domain) {
         return ask("load", {{"player", "p"}, {"domain", domain}, {"instance", tanks_instance}});
     }
-    json news(std::size_t since = 0, std::uint64_t branch = 0) {
-        return ask("news", {{"player", "p"}, {"since", since}, {"branch", branch}});
+    json updates(std::size_t since = 0, std::uint64_t branch = 0) {
+        return ask("updates", {{"player", "p"}, {"since", since}, {"branch", branch}});
     }
-    json finished_news() {
+    json finished_updates() {
         for (;;) {
-            const json found = news();
+            const json found = updates();
             if (found["run"].is_null() || found["run"]["state"] != "running") return found;
             std::this_thread::sleep_for(std::chrono::milliseconds(5));
         }
@@ -121,20 +146,20 @@ TEST_F(StudioTest, TextsWithErrorsAreRefusedWithTheirPlaces) {
     const json answer =
         ask("load", {{"player", "p"}, {"domain", "domain d {"}, {"instance", tanks_instance}}, 422);
     EXPECT_NE(answer["error"].get<std::string>().find("domain.rddl:1:"), std::string::npos);
-    ask("news", {{"player", "p"}}, 422);  // nothing was loaded
+    ask("updates", {{"player", "p"}}, 422);  // nothing was loaded
 }
 
 TEST_F(StudioTest, StepsByHandAndGoesBack) {
     load();
     EXPECT_EQ(ask("step", {{"player", "p"}, {"action", {{"release___a", 2.0}}}}), json::object());
     ask("step", {{"player", "p"}, {"action", json::object()}});
-    const json before = news();
+    const json before = updates();
     EXPECT_EQ(before["now"], 2);
     ask("go_to", {{"player", "p"}, {"step", 1}});
-    EXPECT_EQ(news()["now"], 1);
-    EXPECT_EQ(news()["count"], 3);  // until another action is taken
+    EXPECT_EQ(updates()["now"], 1);
+    EXPECT_EQ(updates()["count"], 3);  // until another action is taken
     ask("step", {{"player", "p"}, {"action", {{"alarm", true}}}});
-    const json after = news();
+    const json after = updates();
     EXPECT_NE(after["branch"], before["branch"]);
     EXPECT_EQ(after["moments"][1]["state"], before["moments"][1]["state"]);
     EXPECT_EQ(after["moments"][1]["by"], "you");
@@ -149,28 +174,27 @@ TEST_F(StudioTest, IllegalActionsAreTakenOnlyByThoseWhoInsist) {
     const json action = {{"release___a", 1000.0}};
     const json refused = ask("step", {{"player", "p"}, {"action", action}});
     EXPECT_NE(refused["violation"], "");
-    EXPECT_EQ(news()["now"], 0);
-    EXPECT_EQ(ask("step", {{"player", "p"}, {"action", action}, {"insists", true}}),
-              json::object());
-    EXPECT_NE(news()["moments"][0]["warning"], "");
+    EXPECT_EQ(updates()["now"], 0);
+    EXPECT_EQ(ask("step", {{"player", "p"}, {"action", action}, {"force", true}}), json::object());
+    EXPECT_NE(updates()["moments"][0]["warning"], "");
 }
 
 TEST_F(StudioTest, RunsPolicies) {
     load();
     ask("run", {{"player", "p"}, {"policy", "random"}, {"steps", 5}});
-    EXPECT_EQ(finished_news()["now"], 5);
+    EXPECT_EQ(finished_updates()["now"], 5);
     ask("run", {{"player", "p"}, {"policy", "rddl"}});
-    const json all = finished_news();
+    const json all = finished_updates();
     EXPECT_EQ(all["count"], 21);
     EXPECT_EQ(all["moments"][20]["ended"], json::array({"horizon"}));
     EXPECT_EQ(all["moments"][4]["by"], "random");
     EXPECT_EQ(all["moments"][5]["by"], "rddl");
     // Only what is new is sent, and the last moment that is known.
-    EXPECT_EQ(news(20, all["branch"])["first"], 19);
+    EXPECT_EQ(updates(20, all["branch"])["first"], 19);
     ask("run", {{"player", "p"}, {"policy", "random"}}, 422);  // the episode is over
     ask("go_to", {{"player", "p"}, {"step", 0}});
     ask("run", {{"player", "p"}, {"policy", "no_such_file.json"}});
-    EXPECT_EQ(finished_news()["run"]["state"], "failed");
+    EXPECT_EQ(finished_updates()["run"]["state"], "failed");
     EXPECT_NE(ask("advice", {{"player", "p"}, {"policy", "rddl"}, {"step", 3}})["action"],
               json::object());
 }
@@ -181,31 +205,31 @@ TEST_F(StudioTest, LongRunsCanBeStopped) {
     const auto begin = std::chrono::steady_clock::now();
     ask("stop", {{"player", "p"}});
     EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(5));
-    EXPECT_EQ(news()["run"]["state"], "stopped");
+    EXPECT_EQ(updates()["run"]["state"], "stopped");
 }
 
 TEST_F(StudioTest, PicturesArePngOrRefused) {
     const json problem = load()["problem"];
-    const json wish = {{"tab", "one"}, {"player", "p"}, {"step", 0}, {"visualizer", "auto"}};
-    const Reply reply = studio.answer("picture", wish.dump());
+    const json request = {{"tab", "one"}, {"player", "p"}, {"step", 0}, {"visualizer", "auto"}};
+    const Reply reply = studio.answer("picture", request.dump());
     const bool draws = !problem["visualizers"].empty();
     EXPECT_EQ(reply.status, draws ? 200 : 422);
     if (draws) {
         EXPECT_EQ(reply.body.substr(0, 4), "\x89PNG");
     }
-    json wrong = wish;
+    json wrong = request;
     wrong["step"] = 7;
     EXPECT_EQ(studio.answer("picture", wrong.dump()).status, 422);
-    wrong = wish;
+    wrong = request;
     wrong["visualizer"] = "no such";
     EXPECT_EQ(studio.answer("picture", wrong.dump()).status, 422);
 }
 
 TEST_F(StudioTest, ComparesWithPairedLuck) {
-    json wish = {{"domain", tanks_domain}, {"instance", tanks_instance},
-                 {"first", "noop"},        {"second", "rddl"},
-                 {"episodes", 20},         {"seed", 3}};
-    ask("compare", wish);
+    json request = {{"domain", tanks_domain}, {"instance", tanks_instance},
+                    {"first", "noop"},        {"second", "rddl"},
+                    {"episodes", 20},         {"seed", 3}};
+    ask("compare", request);
     const json status = finished_job("compare");
     ASSERT_EQ(status["state"], "done") << status;
     // The policy block does nothing but raise the alarm from its fourth decision on, and the luck
@@ -213,24 +237,89 @@ TEST_F(StudioTest, ComparesWithPairedLuck) {
     EXPECT_NEAR(status["result"]["difference"]["mean"].get<double>(), -17, 1e-9);
     EXPECT_NEAR(status["result"]["difference"]["half_width_95"].get<double>(), 0, 1e-9);
     EXPECT_EQ(status["result"]["pairs"], 20);
-    wish["first"] = "nothing";
-    ask("compare", wish);
+    request["first"] = "nothing";
+    ask("compare", request);
     EXPECT_EQ(finished_job("compare")["state"], "failed");
 }
 
+TEST_F(StudioTest, TwoPolicyBlocksAreNotComparedAsOne) {
+    const TestFolder folder;
+    const std::string file = folder.write("alarming.rddl", alarming);
+    json request = {{"domain", tanks_domain}, {"instance", tanks_instance},
+                    {"first", file},          {"second", "rddl"},
+                    {"episodes", 20},         {"seed", 3}};
+    ask("compare", request, 422);
+    request["second"] = "noop";
+    ask("compare", request);
+    const json status = finished_job("compare");
+    ASSERT_EQ(status["state"], "done") << status;
+    EXPECT_NEAR(status["result"]["difference"]["mean"].get<double>(), 20, 1e-9);
+    EXPECT_EQ(status["result"]["policies"][0]["policy"], file);
+}
+
+TEST_F(StudioTest, EpisodesKeepTheirPolicyBlock) {
+    const TestFolder folder;
+    const std::string file = folder.write("alarming.rddl", alarming);
+    const std::string other = folder.write("other.rddl", alarming);
+    EXPECT_EQ(load()["problem"]["policy_block"], "");
+    ask("run", {{"player", "p"}, {"policy", file}}, 422);
+    const json loaded = ask("load", {{"player", "p"},
+                                     {"domain", tanks_domain},
+                                     {"instance", tanks_instance},
+                                     {"policy", file}});
+    EXPECT_EQ(loaded["problem"]["policy_block"], file);
+    for (const std::string& policy : {std::string("rddl"), other}) {
+        ask("run", {{"player", "p"}, {"policy", policy}}, 422);
+        ask("advice", {{"player", "p"}, {"policy", policy}, {"step", 0}}, 422);
+    }
+    EXPECT_EQ(ask("advice", {{"player", "p"}, {"policy", file}, {"step", 0}})["action"]["alarm"],
+              true);
+    ask("run", {{"player", "p"}, {"policy", file}, {"steps", 1}});
+    EXPECT_EQ(finished_updates()["moments"][0]["by"], file);
+    ask("run", {{"player", "p"}, {"policy", "noop"}, {"steps", 1}});
+    EXPECT_EQ(finished_updates()["now"], 2);
+}
+
+// The derivatives are those of the texts on the page, which are in no file.
+TEST_F(StudioTest, PlansWithDerivatives) {
+    load();
+    const std::string planner = "plan:gradient,iterations=1";
+    ask("run", {{"player", "p"}, {"policy", planner}, {"steps", 1}});
+    const json run = finished_updates()["run"];
+    EXPECT_EQ(run["state"], "done") << run;
+    ask("compare", {{"domain", tanks_domain},
+                    {"instance", tanks_instance},
+                    {"first", "noop"},
+                    {"second", planner},
+                    {"horizon", 2},
+                    {"episodes", 1}});
+    const json status = finished_job("compare");
+    EXPECT_EQ(status["state"], "done") << status;
+}
+
+TEST_F(StudioTest, TabsThatMakeRoomStopTheirJobs) {
+    const TestFolder folder;
+    const WorkingFolder working(folder.path);
+    load();
+    ask("run", {{"player", "p"}, {"policy", "plan:cem,seconds=100"}});
+    ask("train", {{"domain", tanks_domain},
+                  {"instance", tanks_instance},
+                  {"solver", "cgp"},
+                  {"seconds", 600}});
+    for (int k = 0; k < 64; ++k) ask("ping", {{"tab", "tab " + std::to_string(k)}});
+    EXPECT_EQ(ask("job", {{"job", "train"}})["state"], "absent");  // it is a new tab of this name
+    EXPECT_TRUE(studio.jobs_end(std::chrono::seconds(20)));
+}
+
 TEST_F(StudioTest, TrainsAndStops) {
-    const std::filesystem::path before = std::filesystem::current_path();
-    const std::filesystem::path folder =
-        std::filesystem::path(testing::TempDir()) / "rddlc_studio_test";
-    std::filesystem::remove_all(folder);
-    std::filesystem::create_directories(folder);
-    std::filesystem::current_path(folder);
-    json wish = {{"domain", tanks_domain},
-                 {"instance", tanks_instance},
-                 {"solver", "cgp"},
-                 {"seconds", 600},
-                 {"options", {"gens=2", "episodes=1"}}};
-    ask("train", wish);
+    const TestFolder folder;
+    const WorkingFolder working(folder.path);
+    json request = {{"domain", tanks_domain},
+                    {"instance", tanks_instance},
+                    {"solver", "cgp"},
+                    {"seconds", 600},
+                    {"options", {"gens=2", "episodes=1"}}};
+    ask("train", request);
     const json status = finished_job("train");
     EXPECT_EQ(status["state"], "done") << status;
     EXPECT_GE(status["progress"]["steps"].size(), 2u);
@@ -238,28 +327,28 @@ TEST_F(StudioTest, TrainsAndStops) {
     EXPECT_EQ(status["result"]["folder"], "runs/i_cgp_0");
     load();
     ask("run", {{"player", "p"}, {"policy", "runs/i_cgp_0"}});
-    EXPECT_EQ(finished_news()["run"]["state"], "done");
+    EXPECT_EQ(finished_updates()["run"]["state"], "done");
     // The next run has a folder of its own; a stop ends it soon.
-    wish["options"] = json::array();
-    ask("train", wish);
+    request["options"] = json::array();
+    ask("train", request);
     ask("stop", {{"job", "train"}});
     EXPECT_EQ(finished_job("train")["state"], "stopped");
-    wish["options"] = {"genz=2"};
-    EXPECT_NE(ask("train", wish, 422)["error"].get<std::string>().find("gens"), std::string::npos);
-    wish["solver"] = "dqn";
-    ask("train", wish, 422);
-    std::filesystem::current_path(before);
+    request["options"] = {"genz=2"};
+    EXPECT_NE(ask("train", request, 422)["error"].get<std::string>().find("gens"),
+              std::string::npos);
+    request["solver"] = "dqn";
+    ask("train", request, 422);
 }
 
 TEST_F(StudioTest, TabsAreIndependent) {
     load();
     ask("step", {{"player", "p"}, {"action", json::object()}});
-    ask("news", {{"player", "p"}, {"tab", "other"}}, 422);
+    ask("updates", {{"player", "p"}, {"tab", "other"}}, 422);
     ask("load", {{"player", "p"},
                  {"tab", "other"},
                  {"domain", tanks_domain},
                  {"instance", tanks_instance}});
-    EXPECT_EQ(news()["now"], 1);
+    EXPECT_EQ(updates()["now"], 1);
     EXPECT_EQ(ask("job", {{"job", "compare"}, {"tab", "other"}})["state"], "absent");
 }
 
@@ -270,9 +359,9 @@ TEST_F(StudioTest, WrongRequestsAreRefusedAndHarmless) {
     load();
     const json player = {{"player", "p"}};
     const auto with = [&](const char* name, const json& value) {
-        json wish = player;
-        wish[name] = value;
-        return wish;
+        json request = player;
+        request[name] = value;
+        return request;
     };
     ask("no_such_request", player, 404);
     ask("step", player, 400);
@@ -282,31 +371,9 @@ TEST_F(StudioTest, WrongRequestsAreRefusedAndHarmless) {
         ask("go_to", with("step", step), 422);
     ask("run", with("policy", "plan:nothing"), 422);
     ask("run", with("policy", 3), 400);
-    ask("news", with("since", -1), 422);
+    ask("updates", with("since", -1), 422);
     ask("language", with("messages", json::array({3, nullptr, {{"method", "x"}}})), 200);
-    EXPECT_EQ(news()["now"], 0);
-}
-
-TEST(SavedTextsTest, FilesAreWrittenOnlyWhereNothingIsLost) {
-    const std::filesystem::path folder =
-        std::filesystem::path(testing::TempDir()) / "rddlc_studio_files";
-    std::filesystem::remove_all(folder);
-    std::filesystem::create_directories(folder);
-    UsedFiles used;
-    write_file(folder / "domain.rddl", tanks_domain, used);
-    write_file(folder / "instance.rddl", tanks_instance, used);
-    workbench::ProblemFiles files;
-    files.domain = folder / "domain.rddl";
-    files.instance = folder / "instance.rddl";
-    const OpenedProblem opened = open_problem(files);
-    const Texts read{opened.domain, opened.instance};
-    save_texts(opened, {"new", tanks_instance}, read, false);
-    EXPECT_EQ(read_file(files.domain), "new");
-    EXPECT_THROW(save_texts(opened, {"newer", tanks_instance}, read, false), Failure);
-    EXPECT_EQ(read_file(files.domain), "new");
-    save_texts(opened, {"newer", tanks_instance}, read, true);
-    EXPECT_EQ(read_file(files.domain), "newer");
-    EXPECT_THROW(save_texts(tanks(), {"", ""}, {}, true), Failure);  // a copy
+    EXPECT_EQ(updates()["now"], 0);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@ import time
 import unittest
 
 from studio import CAR, CTRL, HAS_RUN, RDDL, STEP, PageTest, Window, require_browser
+from test_sessions import Sessions  # noqa: F401: runs here, in the same browser
 
 require_browser()
 CARET = "[...document.querySelectorAll('.editor')].find((each) => !each.hidden).querySelector('textarea').selectionStart"
@@ -156,6 +157,28 @@ class Page(PageTest):
         window.click("#run")
         window.wait("document.querySelector('#try-message').textContent.includes('<img')")
         self.assertFalse(window.evaluate("'hacked' in window"))
+
+    def test_policy_blocks_of_files_and_a_fluent_with_a_name_of_javascript(self):
+        (self.folder / "push.rddl").write_text("policy push { domain = mountain_car; cpfs { throttle = 0.0; constructor = true; }; }")
+        window = self.open()
+        window.edit(0, "pvariables {", "pvariables { constructor : { action-fluent, bool, default = false };")
+        window.wait("document.querySelector('#problems-title').textContent === 'No problems'")
+        self.begin(window)
+        actions = "[...document.querySelectorAll('#actions input')]"
+        self.assertFalse(window.evaluate(f"{actions}.some((each) => each.checked)"))
+        window.fill("#policy", "push.rddl")
+        window.click("#ask")  # in an episode that was begun without this block
+        window.wait("document.querySelector('#try-message').textContent.startsWith('push.rddl would do this in a new')")
+        self.assertTrue(window.evaluate(f"{actions}.some((each) => each.checked)"))
+        window.click("#once")
+        window.wait(f"{STEP} === 'step 1 of 1'")
+        self.assertIn("constructor", window.text("#hand-episode figcaption") + window.evaluate(
+            "(document.querySelector('#hand-episode [aria-label=Back]').click(), document.querySelector('#hand-episode figcaption').textContent)"))
+        # The texts have no block: that of the file does not play in its place.
+        window.fill("#policy", "rddl")
+        window.click("#once")
+        window.wait("document.querySelector('#try-message').classList.contains('bad')")
+        self.assertEqual(window.evaluate(STEP), "step 0 of 0")
 
     def test_keyboard_alone(self):
         window = self.open()

@@ -3,8 +3,6 @@
 import http.server
 import json
 import threading
-import time
-import unittest
 
 from studio import CAR, CTRL, HAS_RUN, STEP, PageTest, Program, Window, require_browser
 
@@ -65,13 +63,15 @@ class Sessions(PageTest):
         self.assertEqual(first.evaluate(STEP), "step 1 of 1")
         # The program ends: the page says so, and keeps what is typed then.
         self.assertEqual(program.end()[0], 130)
+        first.ping()
         first.wait("!document.querySelector('#gone').hidden")
         self.picture(first, "gone")
         first.edit(0, "// of the first tab", "// after the end")
-        time.sleep(0.5)
+        first.wait("Object.keys(localStorage).some((key) => localStorage.getItem(key).includes('after the end'))")
         # A new one at the same port: the old page does not know its secret, a new tab has the text.
         again = Program("domain.rddl", "instance.rddl", "--engine=interpreter", folder=self.folder, port=program.port)
         self.addCleanup(again.close)
+        first.ping()
         first.wait("document.querySelector('#gone').textContent.includes('earlier run')")
         first.close()
         third = Window(self.browser, again.address)
@@ -127,7 +127,3 @@ class Sessions(PageTest):
         window.wait("document.body?.textContent.includes('Host')")
         window.close()
         self.browser.events.clear()
-
-
-if __name__ == "__main__":
-    unittest.main()

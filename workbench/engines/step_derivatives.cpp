@@ -90,13 +90,12 @@ class UnrolledDerivatives : public solvers::StepDerivatives {
 // The problem, once the first thread has asked for it.
 class LazyProblem {
   public:
-    LazyProblem(ProblemFiles files, LoadOptions options)
-        : files_(std::move(files)), options_(std::move(options)) {}
+    explicit LazyProblem(CompileOptions options) : options_(std::move(options)) {}
 
     std::shared_ptr<const DifferentiableProblem> get() {
         const std::scoped_lock lock(mutex_);
         if (!problem_) {
-            Compilation compilation = compile(front_end_options(files_, Stage::Verify, options_));
+            Compilation compilation = compile(options_);
             give_up_on_errors(compilation);
             problem_ = std::make_shared<const DifferentiableProblem>(*compilation.program);
         }
@@ -104,16 +103,18 @@ class LazyProblem {
     }
 
   private:
-    ProblemFiles files_;
-    LoadOptions options_;
+    CompileOptions options_;
     std::mutex mutex_;
     std::shared_ptr<const DifferentiableProblem> problem_;
 };
 
 }  // namespace
 
-solvers::DerivativesSource derivatives_of(const ProblemFiles& files, const LoadOptions& options) {
-    const auto problem = std::make_shared<LazyProblem>(files, options);
+solvers::DerivativesSource derivatives_of(const ProblemFiles& files, const LoadOptions& options,
+                                          std::map<std::filesystem::path, std::string> texts) {
+    CompileOptions compiling = front_end_options(files, Stage::Verify, options);
+    compiling.texts = std::move(texts);
+    const auto problem = std::make_shared<LazyProblem>(std::move(compiling));
     return [problem](const solvers::Relaxation& relaxation) {
         return std::make_unique<UnrolledDerivatives>(problem->get(), relaxation);
     };

@@ -5,6 +5,7 @@
 #include "solvers/evaluation/episodes.hpp"
 #include "solvers/evaluation/summary.hpp"
 #include "solvers/spaces/refusals.hpp"
+#include "studio/policy_name.hpp"
 #include "support/failure.hpp"
 
 #include <fmt/format.h>
@@ -51,16 +52,19 @@ solvers::Rollouts episodes_of(Job& job, const LoadedProblem& problem, const std:
     episodes.memory_limit = problem.files.memory_limit;
     episodes.preconditions = solvers::Preconditions::Warn;  // so that they are counted
     if (options.horizon > 0) episodes.horizon = options.horizon;
-    const std::int64_t all =
-        options.episodes * std::max<std::int64_t>(solvers::steps_at_most(simulator, episodes), 1);
+    const auto longest = std::max<std::int64_t>(solvers::steps_at_most(simulator, episodes), 1);
+    // The product may be larger than an integer.
+    const double all = static_cast<double>(options.episodes) * static_cast<double>(longest);
     std::atomic<std::int64_t> done = 0;
     const auto advance = [&](std::int64_t steps) {
-        const double part = static_cast<double>(done += steps) / static_cast<double>(all);
+        const double part = static_cast<double>(done += steps) / all;
         job.report({{"policy", policy}, {"part", std::min(part, 1.0)}});
     };
     job.report({{"policy", policy}, {"part", 0}});
     return solvers::run_episodes(
-        simulator, policy_named(simulator, policy, false, options.seed, problem.files.memory_limit),
+        simulator,
+        policy_named(simulator, name_when_loaded(policy), false, options.seed,
+                     problem.files.memory_limit, {.derivatives = problem.derivatives}),
         episodes, {[&job] { return job.stops(); }, advance, {}});
 }
 

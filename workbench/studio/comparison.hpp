@@ -11,7 +11,7 @@
 namespace rddlc::studio {
 
 struct ComparisonOptions {
-    std::array<std::string, 2> policies;
+    std::array<std::string, 2> policies;  // as users name them
     std::int64_t episodes = 100;
     std::uint64_t seed = 0;
     std::int64_t horizon = 0;  // steps; 0: the instance's

@@ -33,6 +33,16 @@ render::Step step_of(const Moment& moment, std::size_t number) {
             end_text(moment.causes)};
 }
 
+Moment without_snapshot(const Moment& moment) {
+    Moment copy;
+    copy.state = moment.state;
+    copy.causes = moment.causes;
+    copy.total = moment.total;
+    copy.action = moment.action;
+    copy.reward = moment.reward;
+    return copy;
+}
+
 }  // namespace
 
 std::vector<std::string> visualizers_for(const rddl_simulator& simulator) {
@@ -47,19 +57,26 @@ std::vector<std::string> visualizers_for(const rddl_simulator& simulator) {
     return names;
 }
 
-std::string picture_of(const SteppedEpisode& episode, std::size_t moment,
-                       const std::string& visualizer, PictureSize size) {
+DrawnMoments drawn_moments(const SteppedEpisode& episode, std::size_t moment) {
     const std::vector<Moment>& moments = episode.moments();
     if (moment >= moments.size()) throw Failure(fmt::format("the episode has no step {}", moment));
+    DrawnMoments drawn{moment - std::min(moment, render::most_steps_remembered - 1), {}};
+    for (std::size_t k = drawn.first; k <= moment; ++k)
+        drawn.moments.push_back(without_snapshot(moments[k]));
+    return drawn;
+}
+
+std::string picture_of(const SteppedEpisode& episode, const DrawnMoments& drawn,
+                       const std::string& visualizer, PictureSize size) {
     const render::World world(episode.simulator());
-    const render::Visualizer* const drawn = render::find_visualizer(visualizer);
-    if (!drawn) throw Failure(fmt::format("there is no visualizer '{}'", visualizer));
+    const render::Visualizer* const chosen = render::find_visualizer(visualizer);
+    if (!chosen) throw Failure(fmt::format("there is no visualizer '{}'", visualizer));
     try {
         render::EpisodeRenderer renderer(
-            world, *drawn, size.width, size.height, episode.number(),
+            world, *chosen, size.width, size.height, episode.number(),
             solvers::steps_of_horizon(episode.problem(), episode.horizon()));
-        const std::size_t first = moment - std::min(moment, render::most_steps_remembered - 1);
-        for (std::size_t k = first; k <= moment; ++k) renderer.add(step_of(moments[k], k));
+        for (std::size_t k = 0; k < drawn.moments.size(); ++k)
+            renderer.add(step_of(drawn.moments[k], drawn.first + k));
         return render::small_png_bytes(renderer.picture());
     } catch (const render::Error& error) {
         throw Failure(error.what());

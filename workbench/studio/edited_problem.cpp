@@ -1,5 +1,6 @@
 #include "studio/edited_problem.hpp"
 
+#include "engines/step_derivatives.hpp"
 #include "studio/page.hpp"
 #include "support/failure.hpp"
 #include "support/files.hpp"
@@ -81,22 +82,30 @@ LoadedProblem load_texts(const OpenedProblem& opened, const Texts& texts,
     if (is_compiled) compiling.real = loading.real;
     Compilation compilation = compile(compiling);
     if (compilation.diagnostics.has_errors()) throw Failure(message_of(compilation));
-    return load_compilation(std::move(compilation), files, loading);
+    LoadedProblem problem = load_compilation(std::move(compilation), files, loading);
+    problem.derivatives = derivatives_of(files, loading, compiling.texts);
+    return problem;
 }
 
-void save_texts(const OpenedProblem& opened, const Texts& texts, const Texts& before, bool force) {
+void save_texts(const OpenedProblem& opened, const Texts& texts, Texts& known, bool force) {
     if (!opened.can_save)
         throw Failure("this problem is a copy, which has no files", "download the texts");
     const auto require_unchanged = [&](const std::filesystem::path& file, const std::string& text) {
-        if (!force && is_there(file) && read_file(file, largest_text) != text)
+        if (force) return;
+        if (!is_there(file))
+            throw Failure(fmt::format("another program has removed '{}'", file.string()),
+                          "save again to write it anew");
+        if (read_file(file, largest_text) != text)
             throw Failure(fmt::format("another program has changed '{}'", file.string()),
                           "save again to write over it");
     };
-    require_unchanged(opened.files.domain, before.domain);
-    if (opened.files.instance) require_unchanged(*opened.files.instance, before.instance);
+    require_unchanged(opened.files.domain, known.domain);
+    if (opened.files.instance) require_unchanged(*opened.files.instance, known.instance);
     UsedFiles domain_used, instance_used;
     write_file(opened.files.domain, texts.domain, domain_used);
+    known.domain = texts.domain;
     if (opened.files.instance) write_file(*opened.files.instance, texts.instance, instance_used);
+    known.instance = texts.instance;
 }
 
 }  // namespace rddlc::studio

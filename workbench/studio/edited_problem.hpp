@@ -42,8 +42,9 @@ workbench::LoadedProblem load_texts(const OpenedProblem& opened, const Texts& te
                                     const std::filesystem::path& policy_block = {});
 
 // Writes the texts into the files. Throws a Failure if the problem is a copy, or if a file is not
-// what it was when it was read last (`before`) and `force` is false.
-void save_texts(const OpenedProblem& opened, const Texts& texts, const Texts& before, bool force);
+// what it was when it was read or written last (`known`) and `force` is false. Changes `known` to
+// what was written, also where one file was written and the other one could not be.
+void save_texts(const OpenedProblem& opened, const Texts& texts, Texts& known, bool force);
 
 // "domain.rddl" and "instance.rddl": the names of the texts on the page.
 std::string domain_name(const OpenedProblem& opened);

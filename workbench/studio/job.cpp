@@ -29,11 +29,16 @@ bool Workers::wait(std::chrono::milliseconds longest) {
 std::shared_ptr<Job> Job::start(const std::shared_ptr<Workers>& workers, Work work) {
     const std::shared_ptr<Job> job(new Job(workers));
     workers->begin();
-    std::thread([job, work = std::move(work)]() mutable {
-        job->run(work);
-        work = {};  // frees what it holds before the program may end
-        job->workers_->end();
-    }).detach();
+    try {
+        std::thread([job, work = std::move(work)]() mutable {
+            job->run(work);
+            work = {};  // frees what it holds before the program may end
+            job->workers_->end();
+        }).detach();
+    } catch (...) {  // the system gives no thread
+        workers->end();
+        throw;
+    }
     return job;
 }
 

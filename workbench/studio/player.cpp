@@ -2,6 +2,7 @@
 
 #include "learning/learned_policy.hpp"
 #include "planners/planner/planner_policy.hpp"
+#include "studio/policy_name.hpp"
 #include "support/failure.hpp"
 #include "support/json_text.hpp"
 
@@ -61,6 +62,7 @@ Json action_values(const rddl_problem& problem) {
 
 Player::Player(LoadedProblem problem, const PlayerOptions& options)
     : problem_(std::move(problem)),
+      policy_block_(options.policy_block),
       episode_(problem_.simulator, options.seed, options.episode, options.horizon) {}
 
 Json Player::description() const {
@@ -73,6 +75,7 @@ Json Player::description() const {
             {"max_nondef_actions", problem.max_nondef_actions},
             {"preconditions", problem.precondition_count},
             {"has_policy_block", problem_.simulator->policy != nullptr},
+            {"policy_block", policy_block_},
             {"actions", action_values(problem)},
             {"action_count", RecordLayout(problem, RDDL_ACTION).entries().size()},
             {"state_count", RecordLayout(problem, RDDL_STATE).entries().size()},
@@ -86,11 +89,11 @@ void Player::go_to(std::size_t moment) {
     episode_.go_to(moment);
 }
 
-std::string Player::step(const nlohmann::json& values, bool insists) {
+std::string Player::step(const nlohmann::json& values, bool force) {
     const std::scoped_lock run_lock(run_mutex_);
     halt();
     const Record action = episode_.read_action(values);
-    if (const std::string why = episode_.violation_of(action); !why.empty() && !insists) return why;
+    if (const std::string why = episode_.violation_of(action); !why.empty() && !force) return why;
     MadeStep made = episode_.make_step(action);
     const std::scoped_lock lock(mutex_);
     episode_.keep(std::move(made), "you");
@@ -108,10 +111,22 @@ void Player::halt() {
     while (run_->is_running()) std::this_thread::sleep_for(std::chrono::milliseconds(2));
 }
 
+void Player::stop_soon() {
+    const std::scoped_lock lock(mutex_);
+    if (run_) run_->stop();
+}
+
+void Player::require_block(const std::string& policy) const {
+    if (block_of(policy).value_or(policy_block_) != policy_block_)
+        throw Failure(fmt::format("this episode was begun without the policy block '{}'", policy),
+                      "begin a new one");
+}
+
 PolicyActor& Player::actor_named(const std::string& name) {
     if (!actor_ || actor_->name() != name) {
-        solvers::Policy policy = policy_named(*problem_.simulator, name, false, episode_.seed(),
-                                              problem_.files.memory_limit);
+        solvers::Policy policy =
+            policy_named(*problem_.simulator, name_when_loaded(name), false, episode_.seed(),
+                         problem_.files.memory_limit, {.derivatives = problem_.derivatives});
         policy.name = name;
         actor_ =
             std::make_unique<PolicyActor>(episode_, std::move(policy), planners::is_planner(name));
@@ -120,6 +135,7 @@ PolicyActor& Player::actor_named(const std::string& name) {
 }
 
 std::string Player::advice(const Workers& workers, const std::string& policy, std::size_t moment) {
+    require_block(policy);
     const std::scoped_lock run_lock(run_mutex_);
     halt();
     {
@@ -131,6 +147,7 @@ std::string Player::advice(const Workers& workers, const std::string& policy, st
 
 void Player::run(const std::shared_ptr<Workers>& workers, const std::string& policy,
                  std::int64_t steps) {
+    require_block(policy);
     const std::scoped_lock run_lock(run_mutex_);
     halt();
     if (episode_.is_over()) throw Failure("the episode is over", "go back, or begin another one");
@@ -155,7 +172,7 @@ Json Player::run_steps(Job& job, const std::string& policy, std::int64_t steps) 
     return nullptr;
 }
 
-std::string Player::news(std::uint64_t branch, std::size_t since) const {
+std::string Player::updates(std::uint64_t branch, std::size_t since) const {
     const std::scoped_lock lock(mutex_);
     const std::size_t count = episode_.moments().size();
     // The last moment that the page has is sent again: an action may have been added to it.
@@ -169,8 +186,12 @@ std::string Player::news(std::uint64_t branch, std::size_t since) const {
 
 std::string Player::picture(std::size_t moment, const std::string& visualizer,
                             PictureSize size) const {
-    const std::scoped_lock lock(mutex_);
-    return picture_of(episode_, moment, visualizer, size);
+    DrawnMoments drawn;
+    {
+        const std::scoped_lock lock(mutex_);
+        drawn = drawn_moments(episode_, moment);
+    }
+    return picture_of(episode_, drawn, visualizer, size);
 }
 
 }  // namespace rddlc::studio

@@ -16,8 +16,9 @@
 
 namespace rddlc::studio {
 
-// The course of an episode.
 struct PlayerOptions {
+    // The file with the policy block that the problem was loaded with; empty: the texts' own.
+    std::string policy_block;
     std::uint64_t seed = 0;
     std::int64_t episode = 0;
     std::int64_t horizon = 0;  // an option of batches
@@ -31,10 +32,11 @@ class Player : public std::enable_shared_from_this<Player> {
     // The facts of the problem that the page shows: action-fluents with their ranges, ...
     Json description() const;
 
-    // Each stops what runs, and throws a Failure for a wrong wish.
+    // Each stops what runs, and throws a Failure for a wrong request. A policy is named as
+    // users do, and refused if it is another policy block than the problem was loaded with.
     void go_to(std::size_t moment);
-    // Returns why the action is illegal, and takes it only if `insists`; empty: it was taken.
-    std::string step(const nlohmann::json& action, bool insists);
+    // Returns why the action is illegal, and takes it only if `force`; empty: it was taken.
+    std::string step(const nlohmann::json& action, bool force);
     // The action that the policy would take at the moment, as JSON of the values that differ from
     // their defaults.
     std::string advice(const Workers& workers, const std::string& policy, std::size_t moment);
@@ -42,18 +44,22 @@ class Player : public std::enable_shared_from_this<Player> {
     void run(const std::shared_ptr<Workers>& workers, const std::string& policy,
              std::int64_t steps);
     void stop();
+    // The same without waiting for the end of the step that runs.
+    void stop_soon();
 
     // The moments from `since` on, at most so many as fit into a message, and the state of the run.
     // `branch` counts how often moments were replaced: where it is not the page's, all are sent.
-    std::string news(std::uint64_t branch, std::size_t since) const;
+    std::string updates(std::uint64_t branch, std::size_t since) const;
     std::string picture(std::size_t moment, const std::string& visualizer, PictureSize size) const;
 
   private:
     PolicyActor& actor_named(const std::string& policy);
     void halt();  // with run_mutex_
+    void require_block(const std::string& policy) const;
     Json run_steps(Job& job, const std::string& policy, std::int64_t steps);
 
     const workbench::LoadedProblem problem_;
+    const std::string policy_block_;
     // The lock for the moments of the episode and for run_. A step that takes long is made outside
     // it, by the run or by the holder of run_mutex_: nothing else changes the episode.
     mutable std::mutex mutex_;

@@ -11,6 +11,7 @@
 #include <chrono>
 #include <future>
 #include <thread>
+#include <utility>
 
 namespace rddlc::studio {
 
@@ -22,8 +23,8 @@ constexpr const char* loopback = "127.0.0.1";
 constexpr std::size_t longest_body = std::size_t{1} << 26;
 // Requests at work. A check of a large text takes a thread for as long as it runs.
 constexpr std::size_t threads = 32;
-constexpr std::time_t patience = 5;  // seconds for the bytes of a request
-constexpr std::chrono::milliseconds end_patience{2000};
+constexpr std::time_t longest_silence = 5;  // seconds, between the bytes of a request
+constexpr std::chrono::milliseconds longest_wait_for_requests{2000};
 
 struct File {
     const char* path;
@@ -106,10 +107,10 @@ struct StudioServer::Http {
             });
     }
 
-    void serve_requests(Studio& studio) {
+    void serve_requests(const std::shared_ptr<Studio>& studio) {
         server.Post("/api/([a-z_]+)",
-                    [&studio](const httplib::Request& request, httplib::Response& response) {
-                        const Reply reply = studio.answer(request.matches[1], request.body);
+                    [studio](const httplib::Request& request, httplib::Response& response) {
+                        const Reply reply = studio->answer(request.matches[1], request.body);
                         response.status = reply.status;
                         response.set_content(reply.body, reply.type.c_str());
                     });
@@ -129,13 +130,13 @@ struct StudioServer::Http {
     }
 };
 
-StudioServer::StudioServer(Studio& studio, const ServerOptions& options)
-    : studio_(studio), http_(std::make_shared<Http>()) {
+StudioServer::StudioServer(std::shared_ptr<Studio> studio, const ServerOptions& options)
+    : studio_(std::move(studio)), http_(std::make_shared<Http>()) {
     httplib::Server& server = http_->server;
     server.set_socket_options(set_options);
     server.set_payload_max_length(longest_body);
-    server.set_read_timeout(patience);
-    server.set_write_timeout(patience);
+    server.set_read_timeout(longest_silence);
+    server.set_write_timeout(longest_silence);
     server.set_keep_alive_max_count(1);  // a connection that waits would hold a thread
     server.set_default_headers(headers);
     server.set_tcp_nodelay(true);
@@ -168,8 +169,9 @@ bool StudioServer::run(const std::function<bool()>& stops) {
     while (!stops() && end.wait_for(pause) == std::future_status::timeout) {
     }
     http_->server.stop();
-    const bool jobs_ended = studio_.stop();
-    const bool requests_ended = end.wait_for(end_patience) == std::future_status::ready;
+    const bool jobs_ended = studio_->stop();
+    const bool requests_ended =
+        end.wait_for(longest_wait_for_requests) == std::future_status::ready;
     if (requests_ended)
         listener.join();
     else

@@ -18,10 +18,10 @@ struct ServerOptions {
 class StudioServer {
   public:
     // Listens from now on, at 127.0.0.1. Throws a Failure if the port is taken.
-    StudioServer(Studio& studio, const ServerOptions& options);
+    StudioServer(std::shared_ptr<Studio> studio, const ServerOptions& options);
     ~StudioServer();
 
-    // With the token: only for the user.
+    // The address holds the token, so it is only for the user.
     std::string address() const;
     // Serves until `stops`, which is asked ten times a second. Returns whether all requests and
     // jobs have ended: the caller need not wait for those that have not.
@@ -29,7 +29,7 @@ class StudioServer {
 
   private:
     struct Http;
-    Studio& studio_;
+    std::shared_ptr<Studio> studio_;
     std::shared_ptr<Http> http_;
 };
 

@@ -82,7 +82,7 @@ class SteppedEpisode {
     MadeStep make_step(const Record& action);
     // Puts the step behind the present moment, in place of what came after it before.
     void keep(MadeStep step, std::string by);
-    // Both.
+    // Makes the step and keeps it.
     void step(const Record& action, std::string by) { keep(make_step(action), std::move(by)); }
 
     // The values that differ from their defaults, as a JSON object.

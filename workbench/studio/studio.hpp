@@ -6,6 +6,7 @@
 #include "studio/job.hpp"
 #include "studio/tab.hpp"
 
+#include <chrono>
 #include <cstdint>
 #include <map>
 #include <memory>
@@ -28,15 +29,17 @@ class Studio {
 
     // The answer to the request of that name, such as "step". `body` is the text of a JSON object
     // with the member "tab": tabs know nothing of each other.
-    Reply answer(const std::string& request, std::string_view body);
+    Reply answer(const std::string& name, std::string_view body);
 
-    // From now on jobs stop. Whether all of them have ended soon.
+    // Stops all jobs, also those that begin later. Returns whether all have ended in two seconds.
     bool stop();
+    // Waits until all jobs have ended by themselves. Returns whether they have in time.
+    bool jobs_end(std::chrono::milliseconds longest);
 
   private:
     std::shared_ptr<Tab> tab_of(const std::string& id);
 
-    const TabContext context_;
+    const std::shared_ptr<const TabContext> context_;
     std::mutex mutex_;  // of all below
     struct Entry {
         std::shared_ptr<Tab> tab;

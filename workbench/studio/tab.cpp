@@ -4,6 +4,7 @@
 #include "lsp/reference.hpp"
 #include "planners/planner/planner_policy.hpp"
 #include "studio/comparison.hpp"
+#include "studio/policy_name.hpp"
 #include "studio/training.hpp"
 #include "support/failure.hpp"
 #include "support/json_text.hpp"
@@ -16,7 +17,7 @@
 namespace rddlc::studio {
 
 using namespace workbench;
-using Wish = nlohmann::json;
+using Request = nlohmann::json;
 
 namespace {
 
@@ -24,14 +25,15 @@ Reply reply(const Json& json) {
     return {.body = json_line(json)};
 }
 
-std::string text_in(const Wish& wish, const char* name, const std::string& otherwise) {
-    return wish.contains(name) ? wish.at(name).get<std::string>() : otherwise;
+std::string text_in(const Request& request, const char* name, const std::string& otherwise) {
+    return request.contains(name) ? request.at(name).get<std::string>() : otherwise;
 }
 
 template <class Number>
-Number number_in(const Wish& wish, const char* name, Number otherwise, Number least, Number most) {
-    if (!wish.contains(name)) return otherwise;
-    const Wish& value = wish.at(name);
+Number number_in(const Request& request, const char* name, Number otherwise, Number least,
+                 Number most) {
+    if (!request.contains(name)) return otherwise;
+    const nlohmann::json& value = request.at(name);
     const bool is_whole = value.is_number_integer() || std::is_floating_point_v<Number>;
     if (!value.is_number() || !is_whole || value.get<double>() < static_cast<double>(least) ||
         value.get<double>() > static_cast<double>(most))
@@ -39,30 +41,19 @@ Number number_in(const Wish& wish, const char* name, Number otherwise, Number le
     return value.get<Number>();
 }
 
-std::uint64_t seed_in(const Wish& wish) {
-    constexpr std::uint64_t most = std::uint64_t{1} << 53;  // that JavaScript counts
-    return number_in<std::uint64_t>(wish, "seed", 0, 0, most);
+std::uint64_t seed_in(const Request& request) {
+    constexpr std::uint64_t most = std::uint64_t{1} << 53;  // the largest that JavaScript counts
+    return number_in<std::uint64_t>(request, "seed", 0, 0, most);
 }
 
 constexpr std::int64_t longest_episode = 10'000'000;
 
-std::int64_t horizon_in(const Wish& wish) {
-    return number_in<std::int64_t>(wish, "horizon", 0, 0, longest_episode);
+std::int64_t horizon_in(const Request& request) {
+    return number_in<std::int64_t>(request, "horizon", 0, 0, longest_episode);
 }
 
-// "FILE.rddl" is a file with a policy block, as for `rddl run --policy`.
-bool is_policy_block(const std::string& policy) {
-    return policy.ends_with(".rddl");
-}
-std::string block_of(const std::string& policy) {
-    return is_policy_block(policy) ? policy : "";
-}
-std::string name_of_policy(const std::string& policy) {
-    return is_policy_block(policy) ? "rddl" : policy;
-}
-
-std::string policy_in(const Wish& wish, const char* name = "policy") {
-    const std::string policy = wish.at(name).get<std::string>();
+std::string policy_in(const Request& request, const char* name = "policy") {
+    const std::string policy = request.at(name).get<std::string>();
     if (planners::is_planner(policy)) planners::require_planner(policy);
     return policy;
 }
@@ -88,43 +79,48 @@ Json planner_names() {
 
 }  // namespace
 
-Tab::Tab(const TabContext& context)
-    : context_(context),
-      language_(context.problem.files.standard),
-      saved_{context.problem.domain, context.problem.instance} {
+Tab::Tab(std::shared_ptr<const TabContext> context)
+    : context_(std::move(context)),
+      language_(context_->problem.files.standard),
+      saved_{context_->problem.domain, context_->problem.instance} {
     language_.handle({{"jsonrpc", "2.0"}, {"id", 0}, {"method", "initialize"}});
 }
 
-Texts Tab::texts_of(const Wish& wish) {
-    return {wish.at("domain").get<std::string>(), wish.at("instance").get<std::string>()};
+Tab::~Tab() {
+    for (const auto& [name, player] : players_) player->stop_soon();
+    for (const auto& [name, job] : jobs_) job->stop();
 }
 
-std::shared_ptr<Player> Tab::player(const Wish& wish) {
-    const std::string name = wish.at("player");
+Texts Tab::texts_of(const Request& request) {
+    return {request.at("domain").get<std::string>(), request.at("instance").get<std::string>()};
+}
+
+std::shared_ptr<Player> Tab::player(const Request& request) {
+    const std::string name = request.at("player");
     const std::scoped_lock lock(mutex_);
     const auto found = players_.find(name);
     if (found == players_.end()) throw Failure("no episode has begun");
     return found->second;
 }
 
-Reply Tab::answer(const std::string& request, const Wish& wish) {
-    using Answer = Reply (Tab::*)(const Wish&);
+Reply Tab::answer(const std::string& name, const Request& request) {
+    using Answer = Reply (Tab::*)(const Request&);
     static const std::map<std::string, Answer> answers = {
         {"open", &Tab::open},       {"language", &Tab::language}, {"save", &Tab::save},
         {"ping", &Tab::ping},       {"describe", &Tab::describe}, {"load", &Tab::load},
         {"step", &Tab::step},       {"run", &Tab::run},           {"advice", &Tab::advice},
-        {"stop", &Tab::stop},       {"go_to", &Tab::go_to},       {"news", &Tab::news},
+        {"stop", &Tab::stop},       {"go_to", &Tab::go_to},       {"updates", &Tab::updates},
         {"picture", &Tab::picture}, {"compare", &Tab::compare},   {"train", &Tab::train},
         {"job", &Tab::job}};
-    const auto found = answers.find(request);
+    const auto found = answers.find(name);
     if (found == answers.end()) return {404, "application/json", R"({"error":"no such request"})"};
-    return (this->*found->second)(wish);
+    return (this->*found->second)(request);
 }
 
 // ------------------------------------------------------------------------------------- texts
 
-Reply Tab::open(const Wish&) {
-    const OpenedProblem& problem = context_.problem;
+Reply Tab::open(const Request&) {
+    const OpenedProblem& problem = context_->problem;
     const std::scoped_lock lock(mutex_);
     return reply({{"name", problem.name},
                   {"domain_name", domain_name(problem)},
@@ -138,16 +134,17 @@ Reply Tab::open(const Wish&) {
 
 // Messages of the Language Server Protocol, and the diagnostics of texts that they have changed,
 // unless "checks" is false.
-Reply Tab::language(const Wish& wish) {
-    std::vector<Wish> answers;
+Reply Tab::language(const Request& request) {
+    std::vector<nlohmann::json> answers;
     std::optional<lsp::CheckRequest> checking;
-    const auto take = [&](std::vector<Wish> messages) {
+    const auto take = [&](std::vector<nlohmann::json> messages) {
         std::ranges::move(messages, std::back_inserter(answers));
     };
     {
         const std::scoped_lock lock(language_mutex_);
-        for (const Wish& message : wish.at("messages")) take(language_.handle(message));
-        if (wish.value("checks", true) && language_.take_change())
+        for (const nlohmann::json& message : request.at("messages"))
+            take(language_.handle(message));
+        if (request.value("checks", true) && language_.take_change())
             checking = language_.check_request();
     }
     if (checking) {  // may take long, and needs no lock
@@ -158,30 +155,30 @@ Reply Tab::language(const Wish& wish) {
     return {.body = fmt::format(R"({{"messages":{}}})", json_line(Json(answers)))};
 }
 
-Reply Tab::ping(const Wish&) {
+// Tells the page that the program lives, and the program that the tab does: it is not the one that
+// makes room for a new one.
+Reply Tab::ping(const Request&) {
     return {};
 }
 
-Reply Tab::save(const Wish& wish) {
-    const Texts texts = texts_of(wish);
+Reply Tab::save(const Request& request) {
+    const Texts texts = texts_of(request);
     const std::scoped_lock lock(mutex_);
-    save_texts(context_.problem, texts, saved_, wish.value("force", false));
-    saved_ = texts;
+    save_texts(context_->problem, texts, saved_, request.value("force", false));
     return {};
 }
 
 // ---------------------------------------------------------------------------------- episodes
 
-Reply Tab::load(const Wish& wish) {
-    const std::string name = wish.at("player");
-    const std::string policy = text_in(wish, "policy", "");
-    const PlayerOptions options{seed_in(wish),
-                                number_in<std::int64_t>(wish, "episode", 0, 0, longest_episode),
-                                horizon_in(wish)};
-    const auto fresh =
-        std::make_shared<Player>(load_texts(context_.problem, texts_of(wish), context_.load,
-                                            Purpose::Stepping, block_of(policy)),
-                                 options);
+Reply Tab::load(const Request& request) {
+    const std::string name = request.at("player");
+    const std::string block = block_of(text_in(request, "policy", "")).value_or("");
+    const PlayerOptions options{block, seed_in(request),
+                                number_in<std::int64_t>(request, "episode", 0, 0, longest_episode),
+                                horizon_in(request)};
+    const auto fresh = std::make_shared<Player>(
+        load_texts(context_->problem, texts_of(request), context_->load, Purpose::Stepping, block),
+        options);
     const Json description = fresh->description();
     std::shared_ptr<Player> before;
     {
@@ -192,13 +189,13 @@ Reply Tab::load(const Wish& wish) {
         before = std::exchange(players_[name], fresh);
     }
     if (before) before->stop();
-    return {.body = fmt::format(R"({{"problem":{},"news":{}}})", json_line(description),
-                                fresh->news(0, 0))};
+    return {.body = fmt::format(R"({{"problem":{},"updates":{}}})", json_line(description),
+                                fresh->updates(0, 0))};
 }
 
 // {} where no episode has begun.
-Reply Tab::describe(const Wish& wish) {
-    const std::string name = wish.at("player");
+Reply Tab::describe(const Request& request) {
+    const std::string name = request.at("player");
     std::shared_ptr<Player> found;
     {
         const std::scoped_lock lock(mutex_);
@@ -209,53 +206,54 @@ Reply Tab::describe(const Wish& wish) {
     return reply(answer);
 }
 
-Reply Tab::step(const Wish& wish) {
+Reply Tab::step(const Request& request) {
     const std::string violation =
-        player(wish)->step(wish.at("action"), wish.value("insists", false));
+        player(request)->step(request.at("action"), request.value("force", false));
     Json answer = Json::object();
     if (!violation.empty()) answer["violation"] = violation;
     return reply(answer);
 }
 
-Reply Tab::advice(const Wish& wish) {
+Reply Tab::advice(const Request& request) {
     const std::string action =
-        player(wish)->advice(*context_.workers, name_of_policy(policy_in(wish)),
-                             number_in<std::size_t>(wish, "step", 0, 0, longest_episode));
+        player(request)->advice(*context_->workers, policy_in(request),
+                                number_in<std::size_t>(request, "step", 0, 0, longest_episode));
     return {.body = fmt::format(R"({{"action":{}}})", action)};
 }
 
-Reply Tab::run(const Wish& wish) {
-    player(wish)->run(context_.workers, name_of_policy(policy_in(wish)),
-                      number_in<std::int64_t>(wish, "steps", longest_episode, 1, longest_episode));
+Reply Tab::run(const Request& request) {
+    player(request)->run(
+        context_->workers, policy_in(request),
+        number_in<std::int64_t>(request, "steps", longest_episode, 1, longest_episode));
     return {};
 }
 
-Reply Tab::stop(const Wish& wish) {
-    if (wish.contains("player")) player(wish)->stop();
-    const std::string name = text_in(wish, "job", "");
+Reply Tab::stop(const Request& request) {
+    if (request.contains("player")) player(request)->stop();
+    const std::string name = text_in(request, "job", "");
     const std::scoped_lock lock(mutex_);
     if (const auto found = jobs_.find(name); found != jobs_.end()) found->second->stop();
     return {};
 }
 
-Reply Tab::go_to(const Wish& wish) {
-    player(wish)->go_to(number_in<std::size_t>(wish, "step", 0, 0, longest_episode));
+Reply Tab::go_to(const Request& request) {
+    player(request)->go_to(number_in<std::size_t>(request, "step", 0, 0, longest_episode));
     return {};
 }
 
-Reply Tab::news(const Wish& wish) {
-    return {.body = player(wish)->news(
-                number_in<std::uint64_t>(wish, "branch", 0, 0, std::uint64_t{1} << 53),
-                number_in<std::size_t>(wish, "since", 0, 0, longest_episode))};
+Reply Tab::updates(const Request& request) {
+    return {.body = player(request)->updates(
+                number_in<std::uint64_t>(request, "branch", 0, 0, std::uint64_t{1} << 53),
+                number_in<std::size_t>(request, "since", 0, 0, longest_episode))};
 }
 
-Reply Tab::picture(const Wish& wish) {
-    const PictureSize size{number_in(wish, "width", 600, 16, 4096),
-                           number_in(wish, "height", 400, 16, 4096)};
-    return {
-        .type = "image/png",
-        .body = player(wish)->picture(number_in<std::size_t>(wish, "step", 0, 0, longest_episode),
-                                      wish.at("visualizer").get<std::string>(), size)};
+Reply Tab::picture(const Request& request) {
+    const PictureSize size{number_in(request, "width", 600, 16, 4096),
+                           number_in(request, "height", 400, 16, 4096)};
+    return {.type = "image/png",
+            .body = player(request)->picture(
+                number_in<std::size_t>(request, "step", 0, 0, longest_episode),
+                request.at("visualizer").get<std::string>(), size)};
 }
 
 // -------------------------------------------------------------------------------------- jobs
@@ -267,41 +265,42 @@ void Tab::put_job(const std::string& name, std::shared_ptr<Job> job) {
     place = std::move(job);
 }
 
-Reply Tab::compare(const Wish& wish) {
+Reply Tab::compare(const Request& request) {
     ComparisonOptions options;
-    const std::string first = policy_in(wish, "first"), second = policy_in(wish, "second");
-    options.policies = {name_of_policy(first), name_of_policy(second)};
-    options.episodes = number_in<std::int64_t>(wish, "episodes", 100, 1, 1'000'000);
-    options.seed = seed_in(wish);
-    options.horizon = horizon_in(wish);
-    const std::string block = block_of(first).empty() ? block_of(second) : block_of(first);
-    if (is_policy_block(first) && is_policy_block(second) && first != second)
-        throw Failure("two files with policy blocks cannot be compared");
-    put_job("compare", Job::start(context_.workers, [&context = context_, texts = texts_of(wish),
-                                                     options, block](Job& job) {
+    options.policies = {policy_in(request, "first"), policy_in(request, "second")};
+    options.episodes = number_in<std::int64_t>(request, "episodes", 100, 1, 1'000'000);
+    options.seed = seed_in(request);
+    options.horizon = horizon_in(request);
+    const auto first = block_of(options.policies[0]), second = block_of(options.policies[1]);
+    if (first && second && *first != *second)
+        throw Failure("two policy blocks cannot be compared, since a problem is loaded with one",
+                      "compare each of them with another policy");
+    const std::string block = first.value_or(second.value_or(""));
+    put_job("compare", Job::start(context_->workers, [context = context_, texts = texts_of(request),
+                                                      options, block](Job& job) {
                 const LoadedProblem problem =
-                    load_texts(context.problem, texts, context.load, Purpose::Episodes, block);
+                    load_texts(context->problem, texts, context->load, Purpose::Episodes, block);
                 return studio::compare(job, problem, options);
             }));
     return {};
 }
 
-Reply Tab::train(const Wish& wish) {
-    TrainingWish training;
-    training.solver = wish.at("solver");
-    for (const Wish& option : wish.value("options", Wish::array()))
+Reply Tab::train(const Request& request) {
+    TrainingRequest training;
+    training.solver = request.at("solver");
+    for (const nlohmann::json& option : request.value("options", nlohmann::json::array()))
         training.options.push_back(option.get<std::string>());
-    training.seconds = number_in(wish, "seconds", 60.0, 0.1, 1e6);
-    training.seed = seed_in(wish);
+    training.seconds = number_in(request, "seconds", 60.0, 0.1, 1e6);
+    training.seed = seed_in(request);
     // As `rddl train` names them, so that it resumes the run.
-    const bool is_float = context_.load.real == RealType::Float;
+    const bool is_float = context_->load.real == RealType::Float;
     training.settings = {{"--real", is_float ? "float" : "double"},
-                         {"--fast-math", context_.load.passes.fast_math ? "true" : "false"}};
+                         {"--fast-math", context_->load.passes.fast_math ? "true" : "false"}};
     require_options(training);
-    put_job("train", Job::start(context_.workers, [&context = context_, texts = texts_of(wish),
-                                                   training](Job& job) mutable {
+    put_job("train", Job::start(context_->workers, [context = context_, texts = texts_of(request),
+                                                    training](Job& job) mutable {
                 const LoadedProblem problem =
-                    load_texts(context.problem, texts, context.load, Purpose::Episodes);
+                    load_texts(context->problem, texts, context->load, Purpose::Episodes);
                 training.folder = new_run_folder(problem.simulator->problem->instance,
                                                  training.solver, training.seed);
                 return studio::train(job, problem, training);
@@ -309,8 +308,8 @@ Reply Tab::train(const Wish& wish) {
     return {};
 }
 
-Reply Tab::job(const Wish& wish) {
-    const std::string name = wish.at("job");
+Reply Tab::job(const Request& request) {
+    const std::string name = request.at("job");
     const std::scoped_lock lock(mutex_);
     const auto found = jobs_.find(name);
     return found == jobs_.end() ? reply({{"state", "absent"}}) : reply(found->second->status());

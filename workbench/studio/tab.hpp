@@ -32,35 +32,36 @@ struct TabContext {
 
 class Tab {
   public:
-    // The context must outlive it.
-    explicit Tab(const TabContext& context);
+    explicit Tab(std::shared_ptr<const TabContext> context);
+    // Stops its jobs and episodes, and does not wait for them.
+    ~Tab();
 
     // Throws a Failure, or an exception of JSON, if the request is not right.
-    Reply answer(const std::string& request, const nlohmann::json& wish);
+    Reply answer(const std::string& name, const nlohmann::json& request);
 
   private:
-    Reply open(const nlohmann::json& wish);
-    Reply language(const nlohmann::json& wish);
-    Reply save(const nlohmann::json& wish);
-    Reply ping(const nlohmann::json& wish);
-    Reply describe(const nlohmann::json& wish);
-    Reply load(const nlohmann::json& wish);
-    Reply step(const nlohmann::json& wish);
-    Reply advice(const nlohmann::json& wish);
-    Reply run(const nlohmann::json& wish);
-    Reply stop(const nlohmann::json& wish);
-    Reply go_to(const nlohmann::json& wish);
-    Reply news(const nlohmann::json& wish);
-    Reply picture(const nlohmann::json& wish);
-    Reply compare(const nlohmann::json& wish);
-    Reply train(const nlohmann::json& wish);
-    Reply job(const nlohmann::json& wish);
+    Reply open(const nlohmann::json& request);
+    Reply language(const nlohmann::json& request);
+    Reply save(const nlohmann::json& request);
+    Reply ping(const nlohmann::json& request);
+    Reply describe(const nlohmann::json& request);
+    Reply load(const nlohmann::json& request);
+    Reply step(const nlohmann::json& request);
+    Reply advice(const nlohmann::json& request);
+    Reply run(const nlohmann::json& request);
+    Reply stop(const nlohmann::json& request);
+    Reply go_to(const nlohmann::json& request);
+    Reply updates(const nlohmann::json& request);
+    Reply picture(const nlohmann::json& request);
+    Reply compare(const nlohmann::json& request);
+    Reply train(const nlohmann::json& request);
+    Reply job(const nlohmann::json& request);
 
-    std::shared_ptr<Player> player(const nlohmann::json& wish);
+    std::shared_ptr<Player> player(const nlohmann::json& request);
     void put_job(const std::string& name, std::shared_ptr<Job> job);
-    static Texts texts_of(const nlohmann::json& wish);
+    static Texts texts_of(const nlohmann::json& request);
 
-    const TabContext& context_;
+    const std::shared_ptr<const TabContext> context_;  // jobs may outlive the tab
     std::mutex language_mutex_;
     lsp::Session language_;
     std::mutex mutex_;  // of all below

@@ -48,19 +48,19 @@ Options options_of(const solvers::OptionTable<Options>& table,
     return options;
 }
 
-solvers::Trainee trainee_of(const rddl_simulator& simulator, const TrainingWish& wish,
+solvers::Trainee trainee_of(const rddl_simulator& simulator, const TrainingRequest& request,
                             std::int64_t memory_limit, const std::function<bool()>& stops) {
     const auto completed = [&](auto options) {
-        options.seed = wish.seed;
+        options.seed = request.seed;
         options.memory_limit = memory_limit;
         options.stops = stops;
         return options;
     };
-    if (wish.solver == "cgp")
+    if (request.solver == "cgp")
         return solvers::cgp_trainee(
-            simulator, completed(options_of(solvers::cgp_option_table(), wish.options)));
+            simulator, completed(options_of(solvers::cgp_option_table(), request.options)));
     solvers::require_an_end_to_learn(*simulator.problem);
-    solvers::PpoOptions ppo = completed(options_of(solvers::ppo_option_table(), wish.options));
+    solvers::PpoOptions ppo = completed(options_of(solvers::ppo_option_table(), request.options));
     ppo.shortens_rollout = !ppo.names_rollout;
     return solvers::ppo_trainee(simulator, ppo);
 }
@@ -117,37 +117,38 @@ std::filesystem::path new_run_folder(const std::string& instance, const std::str
     return folder;
 }
 
-void require_options(const TrainingWish& wish) {
-    if (wish.solver == "cgp")
-        options_of(solvers::cgp_option_table(), wish.options);
-    else if (wish.solver == "ppo")
-        options_of(solvers::ppo_option_table(), wish.options);
+void require_options(const TrainingRequest& request) {
+    if (request.solver == "cgp")
+        options_of(solvers::cgp_option_table(), request.options);
+    else if (request.solver == "ppo")
+        options_of(solvers::ppo_option_table(), request.options);
     else
-        throw Failure(fmt::format("there is no learner '{}'", wish.solver), "ppo or cgp");
+        throw Failure(fmt::format("there is no learner '{}'", request.solver), "ppo or cgp");
 }
 
-Json train(Job& job, const LoadedProblem& problem, const TrainingWish& wish) {
+Json train(Job& job, const LoadedProblem& problem, const TrainingRequest& request) {
     const rddl_simulator& simulator = *problem.simulator;
     const std::function<bool()> stops = [&job] {
         return job.stops();
     };
-    const solvers::Trainee trainee = trainee_of(simulator, wish, problem.files.memory_limit, stops);
+    const solvers::Trainee trainee =
+        trainee_of(simulator, request, problem.files.memory_limit, stops);
     solvers::TrainingOptions options;
-    options.folder = wish.folder;
-    options.seconds = wish.seconds;
-    options.seed = wish.seed;
-    options.settings = wish.settings;
+    options.folder = request.folder;
+    options.seconds = request.seconds;
+    options.seed = request.seed;
+    options.settings = request.settings;
     options.memory_limit = problem.files.memory_limit;
     options.quiet = true;
     options.stops = stops;
-    LearningCurve curve(wish.folder.string());
+    LearningCurve curve(request.folder.string());
     job.report(curve.json());
     options.see_row = [&](std::int64_t steps, double seconds, const solvers::Row& row) {
         curve.add(steps, seconds, row);
         job.report(curve.json());
     };
     const solvers::TrainingResult result = solvers::train(simulator, trainee, options);
-    Json outcome{{"folder", wish.folder.string()},
+    Json outcome{{"folder", request.folder.string()},
                  {"has_policy", result.has_best},
                  {"best_return", json_number(result.best_return)},
                  {"note", trainee.note},

@@ -12,7 +12,7 @@
 
 namespace rddlc::studio {
 
-struct TrainingWish {
+struct TrainingRequest {
     std::string solver;                                         // "ppo" or "cgp"
     std::vector<std::string> options;                           // of the learner: "lr=0.001"
     std::vector<std::pair<std::string, std::string>> settings;  // of the simulator
@@ -26,12 +26,12 @@ std::filesystem::path new_run_folder(const std::string& instance, const std::str
                                      std::uint64_t seed);
 
 // Throws a Failure that names a wrong option, before anything is compiled.
-void require_options(const TrainingWish& wish);
+void require_options(const TrainingRequest& request);
 
 // Returns the folder and what was reached. A stop leaves a run that `rddl train --resume`
 // continues. Reports the curve so far: {"folder", "steps": [...], "seconds": [...], "learning":
 // [...], "evaluation": [...]}, mean returns while it learned and of the evaluations. Numbers that
 // are not known are null.
-Json train(Job& job, const workbench::LoadedProblem& problem, const TrainingWish& wish);
+Json train(Job& job, const workbench::LoadedProblem& problem, const TrainingRequest& request);
 
 }  // namespace rddlc::studio

@@ -8,7 +8,12 @@ std::vector<std::string> visualizers_for(const rddl_simulator&) {
     return {};
 }
 
-std::string picture_of(const SteppedEpisode&, std::size_t, const std::string&, PictureSize) {
+DrawnMoments drawn_moments(const SteppedEpisode&, std::size_t) {
+    return {};
+}
+
+std::string picture_of(const SteppedEpisode&, const DrawnMoments&, const std::string&,
+                       PictureSize) {
     throw Failure("this rddl was built without pictures");
 }
 

@@ -1,21 +1,17 @@
 // rddl studio: a page on which problems are written and tried.
 #include "commands/commands.hpp"
 #include "commands/options.hpp"
+#include "studio/desktop_browser.hpp"
 #include "studio/server.hpp"
 #include "support/program.hpp"
 #include "terminal/interrupt.hpp"
 
-#include <fcntl.h>
-#include <fmt/format.h>
-#include <spawn.h>
 #include <unistd.h>
 
 #include <cstdio>
-#include <cstdlib>
 #include <memory>
+#include <optional>
 #include <string>
-
-extern char** environ;
 
 namespace rddlc::cli {
 
@@ -39,28 +35,25 @@ studio::OpenedProblem opened_problem(const ProblemArguments& arguments) {
     return problem;
 }
 
-// The browser of the desktop, if there is one. Its messages would stand among ours.
-void show_in_browser(const std::string& address) {
-    if (!std::getenv("DISPLAY") && !std::getenv("WAYLAND_DISPLAY")) return;
-    posix_spawn_file_actions_t files;
-    posix_spawn_file_actions_init(&files);
-    for (const int descriptor : {STDOUT_FILENO, STDERR_FILENO})
-        posix_spawn_file_actions_addopen(&files, descriptor, "/dev/null", O_WRONLY, 0);
-    std::string program = "xdg-open", argument = address;
-    char* words[] = {program.data(), argument.data(), nullptr};
-    pid_t process = 0;
-    posix_spawnp(&process, "xdg-open", &files, nullptr, words, environ);
-    posix_spawn_file_actions_destroy(&files);
+// Whether all requests and jobs have ended.
+bool serve_with_browser(studio::StudioServer& server, bool shows_browser) {
+    std::optional<studio::DesktopBrowser> browser;
+    if (shows_browser) browser.emplace(server.address());
+    return server.run([&browser] {
+        if (browser) browser->forget_ended();
+        return is_interrupted();
+    });
 }
 
 ExitStatus serve_studio(const StudioArguments& arguments) {
-    studio::Studio room(opened_problem(arguments.problem), {arguments.load});
-    studio::StudioServer server(room, arguments.server);
+    studio::StudioServer server(
+        std::make_shared<studio::Studio>(opened_problem(arguments.problem),
+                                         studio::StudioOptions{arguments.load}),
+        arguments.server);
     print("{}\n", server.address());
     std::fflush(stdout);
     tell("rddl studio: open this address in a browser of this machine; Ctrl-C ends it\n");
-    if (arguments.shows_browser) show_in_browser(server.address());
-    const bool ended = server.run(is_interrupted);
+    const bool ended = serve_with_browser(server, arguments.shows_browser);
     // A compilation that takes minutes cannot be stopped, and holds nothing that would be lost.
     if (!ended) _exit(interrupted_status());
     return interrupted_status();
@@ -75,8 +68,7 @@ Command studio_command() {
     command.summary = "Write and try a problem on a page in the browser";
     command.details =
         "Prints the address of the page, which only this machine reaches, with a secret of this "
-        "run "
-        "in it.\n"
+        "run in it.\n"
         "Without a problem it begins with a small one. docs/studio.md describes the page.\n\n"
         "Examples:\n"
         "  rddl studio\n"

@@ -1,5 +1,5 @@
 // Two policies with the same luck: episodes side by side, and the returns of many.
-import { ask, byId, make, poll, shown } from "./server.js";
+import { ask, byId, followJob, guardedBy, make, shown } from "./server.js";
 import { Episode, Transport } from "./episode.js";
 import { texts } from "./problem.js";
 import { problemIsBroken, say, seedOf } from "./try.js";
@@ -10,6 +10,7 @@ const transport = new Transport(sides);
 const horizon = () => (byId("horizon").value ? { horizon: Math.round(Number(byId("horizon").value)) } : {});
 const names = () => [byId("first").value.trim(), byId("second").value.trim()];
 const tell = (text, isBad) => say("compare-message", text, isBad);
+const guarded = guardedBy(tell);
 
 async function playBoth() {
   if (problemIsBroken("compare-message")) return;
@@ -17,7 +18,7 @@ async function playBoth() {
   tell("starting …");
   const policies = names();
   for (const [k, side] of sides.entries()) {
-    await side.load({ ...texts(), ...horizon(), seed: seedOf("compare-seed"), ...(policies[k].endsWith(".rddl") ? { policy: policies[k] } : {}) });
+    await side.load({ ...texts(), ...horizon(), seed: seedOf("compare-seed"), policy: policies[k] });
     side.title = policies[k];
     side.isPending = true;
   }
@@ -40,20 +41,17 @@ async function evaluate() {
   const [first, second] = names();
   await ask("compare", { ...texts(), ...horizon(), first, second, seed: seedOf("compare-seed"), episodes: Math.round(Number(byId("episodes").value)) });
   byId("outcome").replaceChildren();
-  await followJob();
+  await follow();
 }
 
-async function followJob() {
-  byId("compare-stop").hidden = false;
-  let status;
-  await poll(async () => {
-    status = await ask("job", { job: "compare" });
-    const { policy, part } = status.progress ?? {};
-    if (status.state === "running")
-      tell(policy ? `${policy}: ${Math.round(100 * part)} % in ${Math.round(status.seconds)} s` : `compiling for ${Math.round(status.seconds)} s`);
-    return status.state === "running";
-  }, 250);
-  byId("compare-stop").hidden = true;
+function showProgress({ state, progress, seconds }) {
+  const { policy, part } = progress ?? {};
+  if (state === "running")
+    tell(policy ? `${policy}: ${Math.round(100 * part)} % in ${Math.round(seconds)} s` : `compiling for ${Math.round(seconds)} s`);
+}
+
+async function follow() {
+  const status = await followJob("compare", byId("compare-stop"), 250, showProgress);
   if (status.state === "failed") return tell(status.error, true);
   if (!status.result) return tell(status.state === "stopped" ? "stopped" : "");
   tell(status.state === "stopped" ? "stopped: this is what was finished" : "");
@@ -80,14 +78,6 @@ function outcome({ policies, pairs, difference }) {
     make("p", { id: "verdict", textContent: `Difference of the same episodes, second minus first: ${interval(difference)} (${pairs} pairs, 95 % confidence). ${verdict}` })];
 }
 
-const guarded = (act) => async () => {
-  try {
-    await act();
-  } catch (error) {
-    tell(error.message, true);
-  }
-};
-
 export function comparePolicy(name) {
   byId("second").value = name;
   byId("second").dispatchEvent(new Event("change"));
@@ -104,7 +94,7 @@ export async function startCompare() {
     for (const side of sides) if (side.isThere) await side.stop();
   }));
   const { state } = await ask("job", { job: "compare" });
-  if (state !== "absent") guarded(followJob)();
+  if (state !== "absent") guarded(follow)();
   const there = await Promise.all(sides.map((side) => side.resume()));
   if (!there.every(Boolean)) return;
   names().forEach((name, k) => { sides[k].title = name; });

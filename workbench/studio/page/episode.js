@@ -5,12 +5,13 @@ import { Chart } from "./chart.js";
 
 const mostRows = 300;  // of the table at once; the filter finds the others
 
+const specialNumbers = new Map([["nan", NaN], ["inf", Infinity], ["-inf", -Infinity]]);
+
 // For charts: bools are 0 and 1, objects their place in the order of first appearance.
 function numberOf(value, words) {
   if (typeof value === "number") return value;
   if (typeof value === "boolean") return value ? 1 : 0;
-  const special = { nan: NaN, inf: Infinity, "-inf": -Infinity };
-  if (value in special) return special[value];
+  if (specialNumbers.has(value)) return specialNumbers.get(value);
   if (!words.includes(value)) words.push(value);
   return words.indexOf(value);
 }
@@ -26,7 +27,7 @@ export class Episode {
     this.dropped = [];  // the moments that others have replaced
     this.branch = 0;
     this.at = 0;
-    this.words = {};
+    this.words = new Map();  // for each value that is an object, the objects that it had
     this.charted = null;  // names of values with a chart; null: chosen by the page
     this.picture = make("img", { alt: "", width: 600, height: 400 });
     this.caption = make("figcaption");
@@ -60,10 +61,10 @@ export class Episode {
     return this.run?.state === "running";
   }
 
-  async load(wish) {
-    const { problem, news } = await ask("load", { ...wish, player: this.player });
+  async load(request) {
+    const { problem, updates } = await ask("load", { ...request, player: this.player });
     this.begin(problem);
-    this.take(news);
+    this.take(updates);
     this.show(0);
   }
 
@@ -79,33 +80,33 @@ export class Episode {
 
   begin(problem) {
     this.problem = problem;
-    Object.assign(this, { moments: [], dropped: [], branch: 0, at: 0, words: {}, run: null, charted: null, moving: null });
+    Object.assign(this, { moments: [], dropped: [], branch: 0, at: 0, words: new Map(), run: null, charted: null, moving: null });
     this.visualizer = problem.visualizers[0] ?? "";
     this.figure.classList.toggle("without", problem.visualizers.length === 0);
     this.chartOf.clear();
     this.charts.replaceChildren();
   }
 
-  take(news) {
-    if (news.branch !== this.branch && this.isThere) this.dropped = this.moments;
-    if (news.branch !== this.branch) this.moments = [];
-    this.branch = news.branch;
-    this.moments.splice(news.first, this.moments.length, ...news.moments);
-    this.now = news.now;
-    this.run = news.run;
-    return this.moments.length < news.count || this.isRunning;
+  take(updates) {
+    if (updates.branch !== this.branch && this.isThere) this.dropped = this.moments;
+    if (updates.branch !== this.branch) this.moments = [];
+    this.branch = updates.branch;
+    this.moments.splice(updates.first, this.moments.length, ...updates.moments);
+    this.now = updates.now;
+    this.run = updates.run;
+    return this.moments.length < updates.count || this.isRunning;
   }
 
-  // Gets what is new; whether more is to come.
+  // Gets what is new. Returns whether more is to come.
   async update() {
-    return this.take(await ask("news", { player: this.player, branch: this.branch, since: this.moments.length }));
+    return this.take(await ask("updates", { player: this.player, branch: this.branch, since: this.moments.length }));
   }
 
-  // Until what runs has ended. Pictures follow at the speed of the player that calls.
-  async follow(onNews = () => {}) {
+  // Waits until what runs has ended. Pictures follow at the speed of the player that calls.
+  async follow(onUpdates = () => {}) {
     await poll(async () => {
       const goesOn = await this.update();
-      onNews();
+      onUpdates();
       return goesOn;
     }, 120);
     if (this.run?.state === "failed") throw new Error(this.run.error);
@@ -117,9 +118,9 @@ export class Episode {
   }
 
   // The sentence why the action is illegal, or "".
-  async takeAction(action, insists) {
+  async takeAction(action, force) {
     if (this.now !== this.at || this.isRunning) await ask("go_to", { player: this.player, step: this.at });
-    const { violation } = await ask("step", { player: this.player, action, insists });
+    const { violation } = await ask("step", { player: this.player, action, force });
     await this.update();
     if (violation) return violation;
     this.show(this.at + 1);
@@ -255,7 +256,8 @@ export class Episode {
       return: (moment) => numberOf(moment.total, []),
     };
     const key = name.replace("value ", "");
-    const words = (this.words[key] ??= []);
+    if (!this.words.has(key)) this.words.set(key, []);
+    const words = this.words.get(key);
     const number = numbers[name] ?? ((moment) => numberOf(moment.state[key], words));
     const points = (moments) => moments.map((moment) => [moment.step, number(moment)]);
     const lines = [{ name: "", color: this.color, points: points(this.moments) }];
@@ -266,7 +268,7 @@ export class Episode {
 
 function entries(values, before, suffix) {
   return Object.entries(values).map(([name, value]) => ({
-    name: name + suffix, key: name, value, isChanged: before[name] !== undefined && before[name] !== value }));
+    name: name + suffix, key: name, value, isChanged: Object.hasOwn(before, name) && before[name] !== value }));
 }
 
 function actionText(action) {

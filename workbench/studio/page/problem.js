@@ -284,7 +284,7 @@ async function save(force = false) {
     keepDraft();
     byId("about").textContent = "saved";
   } catch (error) {
-    if (error instanceof Refused && /another program has changed/.test(error.message)) byId("save").textContent = "Save over it";
+    if (error instanceof Refused && /another program has/.test(error.message)) byId("save").textContent = "Save over it";
     byId("about").textContent = error.message;
   }
 }
@@ -333,10 +333,10 @@ export async function openProblem(information, changeSeen) {
   byId("format").addEventListener("click", () => format().catch((error) => { byId("about").textContent = error.message; }));
   byId("file").addEventListener("change", openFile);
   byId("edit").addEventListener("keydown", (event) => {
-    const wishes = { F8: nextProblem, ".": event.ctrlKey && repairHere };
-    if (!wishes[event.key]) return;
+    const actions = { F8: nextProblem, ".": event.ctrlKey && repairHere };
+    if (!actions[event.key]) return;
     event.preventDefault();
-    wishes[event.key]();
+    actions[event.key]();
   });
   addEventListener("keydown", (event) => {
     if (!(event.ctrlKey || event.metaKey) || event.key !== "s") return;

@@ -53,14 +53,14 @@ export function watch(callback) {
   watcher = callback;
 }
 
-export async function ask(request, wish = {}, { binary = false } = {}) {
+export async function ask(request, members = {}, { binary = false } = {}) {
   let response;
   try {
     response = await fetch(`/api/${request}`, {
       method: "POST",
       cache: "no-store",
       headers: { "Content-Type": "application/json", "X-Rddl-Token": token },
-      body: JSON.stringify({ ...wish, tab }),
+      body: JSON.stringify({ ...members, tab }),
     });
   } catch {
     watcher("gone");
@@ -87,6 +87,32 @@ export async function poll(step, pause) {
     await new Promise((resolve) => setTimeout(resolve, pause));
   }
 }
+
+// Follows a job of this tab to its end, and returns its last status. Its button stops it meanwhile.
+export async function followJob(job, stopButton, pause, show) {
+  stopButton.hidden = false;
+  let status;
+  try {
+    await poll(async () => {
+      status = await ask("job", { job });
+      show(status);
+      return status.state === "running";
+    }, pause);
+  } finally {
+    stopButton.hidden = true;
+  }
+  return status;
+}
+
+// Makes listeners whose errors are told.
+export const guardedBy = (tell) => (act) => async (event) => {
+  event?.preventDefault?.();
+  try {
+    await act();
+  } catch (error) {
+    tell(error.message, true);
+  }
+};
 
 export const byId = (id) => document.getElementById(id);
 export function make(tag, properties = {}, ...children) {

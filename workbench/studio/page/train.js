@@ -1,11 +1,12 @@
 // Learning a policy, with the curve as it grows.
-import { ask, byId, make, poll, shown } from "./server.js";
+import { ask, byId, followJob, guardedBy, make, shown } from "./server.js";
 import { Chart } from "./chart.js";
 import { texts } from "./problem.js";
 import { problemIsBroken, say, seedOf } from "./try.js";
 
 const chart = new Chart("return");
 const tell = (text, isBad) => say("train-message", text, isBad);
+const guarded = guardedBy(tell);
 let folder = "";
 
 async function learn() {
@@ -13,7 +14,7 @@ async function learn() {
   const options = byId("options").value.trim().split(/\s+/).filter(Boolean);
   await ask("train", { ...texts(), solver: byId("learner").value, seconds: Number(byId("seconds").value),
     seed: seedOf("train-seed"), options });
-  await followJob();
+  await follow();
 }
 
 const unit = () => (byId("learner").value === "cgp" ? "generations" : "steps");
@@ -24,19 +25,15 @@ function draw({ steps, learning, evaluation }) {
     { name: "evaluations", color: "--second", dash: 1, points: line(evaluation) }], null, { xTitle: unit() });
 }
 
-async function followJob() {
-  byId("train-stop").hidden = false;
+function showProgress({ state, progress: curve, seconds }) {
+  if (curve?.steps?.length) draw(curve);
+  if (state === "running")
+    tell(curve ? `learning for ${Math.round(seconds)} s in ${curve.folder}, ${shown(curve.steps.at(-1) ?? 0)} ${unit()}` : `compiling for ${Math.round(seconds)} s`);
+}
+
+async function follow() {
   byId("use-policy").hidden = byId("compare-policy").hidden = true;
-  let status;
-  await poll(async () => {
-    status = await ask("job", { job: "train" });
-    const curve = status.progress;
-    if (curve?.steps?.length) draw(curve);
-    if (status.state === "running")
-      tell(curve ? `learning for ${Math.round(status.seconds)} s in ${curve.folder}, ${shown(curve.steps.at(-1) ?? 0)} ${unit()}` : `compiling for ${Math.round(status.seconds)} s`);
-    return status.state === "running";
-  }, 400);
-  byId("train-stop").hidden = true;
+  const status = await followJob("train", byId("train-stop"), 400, showProgress);
   if (status.state === "failed") return tell(status.error, true);
   if (!status.result) return tell(status.state === "stopped" ? "stopped before there was a policy" : "");
   const { folder: where, has_policy: isLearned, best_return: best, warning, summary } = status.result;
@@ -50,15 +47,6 @@ function offerPolicy(name) {
   if (![...byId("policies").options].some((option) => option.value === name)) byId("policies").append(make("option", { value: name }));
 }
 
-const guarded = (act) => async (event) => {
-  event?.preventDefault?.();
-  try {
-    await act();
-  } catch (error) {
-    tell(error.message, true);
-  }
-};
-
 export async function startTrain({ tryPolicy, comparePolicy }) {
   byId("curve").append(chart.root);
   byId("train-form").addEventListener("submit", guarded(learn));
@@ -66,5 +54,5 @@ export async function startTrain({ tryPolicy, comparePolicy }) {
   byId("use-policy").addEventListener("click", () => tryPolicy(folder));
   byId("compare-policy").addEventListener("click", () => comparePolicy(folder));
   const { state } = await ask("job", { job: "train" });
-  if (state !== "absent") guarded(followJob)();
+  if (state !== "absent") guarded(follow)();
 }

@@ -1,11 +1,11 @@
 // One episode: played by policies, or by hand.
-import { ask, byId, make, shown } from "./server.js";
+import { ask, byId, guardedBy, make, shown } from "./server.js";
 import { Episode, Transport } from "./episode.js";
 import { isBroken, texts } from "./problem.js";
 
 const episode = new Episode("hand", { onShow: () => showHand() });
 const transport = new Transport([episode]);
-let loaded = null;  // the texts of the episode
+let loaded = null;  // the texts of the episode, as JSON
 let fields = [];    // of the action
 
 export const seedOf = (id) => Math.max(0, Math.round(Number(byId(id).value) || 0));
@@ -15,6 +15,7 @@ export function say(id, text, isBad = false) {
   byId(id).classList.toggle("bad", isBad);
 }
 const tell = (text, isBad) => say("try-message", text, isBad);
+const guarded = guardedBy(tell);
 
 export function problemIsBroken(id) {
   if (isBroken()) say(id, "The texts have errors: the view Edit shows them.", true);
@@ -24,19 +25,26 @@ export function problemIsBroken(id) {
 async function begin() {
   if (problemIsBroken("try-message")) return false;
   tell("starting …");
-  const wish = texts();
-  const policy = byId("policy").value.trim();
-  await episode.load({ ...wish, seed: seedOf("seed"), ...(policy.endsWith(".rddl") ? { policy } : {}) });
-  loaded = JSON.stringify([wish, seedOf("seed"), policy.endsWith(".rddl") && policy]);
+  const begun = texts();
+  await episode.load({ ...begun, seed: seedOf("seed"), policy: byId("policy").value.trim() });
+  loaded = JSON.stringify(begun);
   tell("");
   buildHand();
   transport.show(0);
   return true;
 }
 
-// Begins where no episode is there, and after another policy block was named.
-const needsBegin = () => !episode.isThere ||
-  (byId("policy").value.trim().endsWith(".rddl") && JSON.parse(loaded ?? "[]")[2] !== byId("policy").value.trim());
+// The policy block that an episode of the policy must have: a file, or "" for that of the texts; null: any.
+function blockOf(policy) {
+  if (policy === "rddl") return "";
+  return policy.endsWith(".rddl") ? policy : null;
+}
+
+// Whether there is no episode yet, or it has another policy block.
+function needsBegin() {
+  const block = blockOf(byId("policy").value.trim());
+  return !episode.isThere || (block !== null && block !== episode.problem.policy_block);
+}
 
 function policyName() {
   const name = byId("policy").value.trim();
@@ -103,7 +111,7 @@ function field(value) {
 
 // The values that differ from their defaults.
 function chosenAction() {
-  const action = {};
+  const action = Object.create(null);  // names such as "constructor" are values too
   for (const { value, input } of fields) {
     let chosen = input.value;
     if (value.type === "bool") chosen = input.checked;
@@ -118,7 +126,7 @@ function chosenAction() {
 
 function setAction(action) {
   for (const { value, input } of fields) {
-    const chosen = action[value.name] ?? value.default;
+    const chosen = Object.hasOwn(action, value.name) ? action[value.name] : value.default;
     if (value.type === "bool") input.checked = chosen;
     else input.value = chosen;
   }
@@ -135,9 +143,9 @@ function showHand() {
   for (const id of ["take", "ask"]) byId(id).disabled = isOver;
 }
 
-async function take(insists) {
+async function take(force) {
   transport.pause();
-  const violation = await episode.takeAction(chosenAction(), insists);
+  const violation = await episode.takeAction(chosenAction(), force);
   byId("take-anyway").hidden = !violation;
   transport.show(episode.at);
   const before = episode.moments[episode.at - 1];
@@ -146,26 +154,19 @@ async function take(insists) {
 
 // The action that the policy would take here; the episode stays as it is.
 async function askPolicy() {
+  const isNew = needsBegin();
+  if (isNew && !(await begin())) return;
   tell("asking …");
   const { action } = await ask("advice", { player: "hand", policy: policyName(), step: episode.at });
   setAction(action);
-  tell(`${policyName()} would do this`);
+  tell(`${policyName()} would do this${isNew ? " in a new episode, which its policy block needs" : ""}`);
 }
 
 // -------------------------------------------------------------------------------------- the page
 
-const guarded = (act) => async (event) => {
-  event?.preventDefault?.();
-  try {
-    await act();
-  } catch (error) {
-    tell(error.message, true);
-  }
-};
-
 export function textsChanged() {
   if (!loaded) return;
-  const isOld = JSON.stringify(JSON.parse(loaded)[0]) !== JSON.stringify(texts());
+  const isOld = loaded !== JSON.stringify(texts());
   if (isOld) tell("The texts have changed: “New episode” takes them.");
   else if (byId("try-message").textContent.startsWith("The texts have changed")) tell("");
 }
@@ -191,7 +192,7 @@ export async function startTry() {
     for (const { value, root } of fields) root.hidden = !value.name.toLowerCase().includes(wanted);
   });
   if (!(await episode.resume())) return;
-  loaded = JSON.stringify([texts(), 0, false]);
+  loaded = JSON.stringify(texts());
   buildHand();
   transport.show(episode.at);
   if (episode.isRunning) guarded(() => episode.follow(() => transport.refresh()))();
