@@ -3,6 +3,7 @@
 
 #include "autodiff/evaluation.hpp"
 #include "support/failure.hpp"
+#include "support/sigmoid.hpp"
 
 #include <rddl/random/distributions.hpp>
 #include <rddl/values/ops.hpp>
@@ -14,10 +15,6 @@
 #include <cstdint>
 
 namespace rddlc::autodiff {
-
-inline double sigmoid(double x) {
-    return 1 / (1 + std::exp(-x));
-}
 
 // The context records faults. `get` gives the value of a slot.
 template <class Get>

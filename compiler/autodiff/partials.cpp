@@ -1,14 +1,17 @@
 #include "autodiff/partials.hpp"
 
-#include "autodiff/instruction_value.hpp"
+#include "support/sigmoid.hpp"
 
 #include <cmath>
+#include <limits>
 
 namespace rddlc::autodiff {
 namespace {
 
-// The derivative of ln(gamma(x)) for x > 0: recurrence, then the asymptotic series.
+// The derivative of ln(gamma(x)): recurrence, then the asymptotic series. Elsewhere than for x > 0
+// gamma faults, and the recurrence might take for ever.
 double digamma(double x) {
+    if (!(x > 0)) return std::numeric_limits<double>::quiet_NaN();
     double shift = 0;
     for (; x < 10; x += 1) shift -= 1 / x;
     const double y = 1 / (x * x);
