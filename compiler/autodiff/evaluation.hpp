@@ -82,6 +82,7 @@ class Evaluation {
     bool propagate_real(const Instruction& instruction);
     template <class Terms>
     void add_lanes(Slot slot, const Terms& term);
+    void propagate_relaxed(const Instruction& instruction);
     void propagate_others(const Instruction& instruction);
     void propagate_list(const Instruction& instruction, std::size_t lane);
     template <class Factor>

@@ -24,7 +24,7 @@ class InstructionValue {
                      Context& context)
         : program_(program), instruction_(instruction), get_(get), context_(context) {}
 
-    // As the other engines compute it.
+    // As the other engines compute it. Over 40 lines: a table of all codes.
     double exact() const {
         const Instruction& i = instruction_;
         switch (i.code) {

@@ -196,13 +196,22 @@ def _array(what: str, given: Any, shape: tuple[int, ...]) -> Array:
 
 def _seeds(given: Any, count: int) -> NDArray[np.uint64]:
     try:
-        numbers = np.asarray(given)
-        # numpy would cut off fractions, and wrap numbers below 0.
-        if numbers.dtype.kind in "iu" and (numbers >= 0).all():
+        # Objects keep whole numbers of any size, and fractions, which a cast would cut off.
+        numbers = np.asarray(given, None if isinstance(given, np.ndarray) else object)
+        if _are_seeds(numbers):
             return np.ascontiguousarray(np.broadcast_to(numbers.astype(np.uint64), (count,)))
     except (ValueError, TypeError, OverflowError):
         pass
     raise ArgumentError(f"seeds are a whole number from 0 to 2^64 - 1, or {count} of them")
+
+
+def _are_seeds(numbers: NDArray[Any]) -> bool:
+    if numbers.dtype.kind == "O":
+        return all(
+            isinstance(each, (int, np.integer)) and not isinstance(each, bool) and each >= 0
+            for each in numbers.flat
+        )
+    return numbers.dtype.kind in "iu" and bool((numbers >= 0).all())
 
 
 def _torch_step() -> Any:
