@@ -385,34 +385,5 @@ TEST_F(LearningProgram, RefusesWhatCannotBe) {
     refuses(on_tanks("evaluate", "--policy broken.json"), "something in it is missing");
 }
 
-// Each step earns -0.6^2 until the number is moved, in as many steps as --horizon says.
-TEST_F(LearningProgram, PlansTheStepsThatHorizonSays) {
-    write_file(folder_ / "p.rddl",
-               "domain d { pvariables { at : { state-fluent, real, default = 0.0 };\n"
-               "  move : { action-fluent, real, default = 0.0 }; };\n"
-               "  cpfs { at' = at + move; }; reward = -(at + move - 0.6) * (at + move - 0.6);\n"
-               "  action-preconditions { move >= -1; move <= 1; }; }\n"
-               "non-fluents n { domain = d; }\n"
-               "instance i { domain = d; non-fluents = n; horizon = 2; discount = 1.0; }\n");
-    const Outcome plan = run("train plan p.rddl --out plan.jsonl --iterations 100 --horizon 5" +
-                             std::string(interpreted));
-    ASSERT_EQ(plan.status, 0) << plan.err;
-    std::istringstream out(plan.out);
-    std::string line, noop, file;
-    double of_noop = 0, of_plan = 0;
-    std::getline(out, line);
-    ASSERT_TRUE(out >> noop >> of_noop >> file >> of_plan) << plan.out;
-    EXPECT_EQ(noop, "noop");
-    EXPECT_NEAR(of_noop, -5 * 0.36, 1e-5);
-    EXPECT_EQ(file, "plan.jsonl");
-    EXPECT_GT(of_plan, -0.05);
-    EXPECT_LE(of_plan, 0);
-    const std::string played = read_file(folder_ / "plan.jsonl");
-    std::istringstream trace(played);
-    int steps = 0;
-    while (std::getline(trace, line)) steps += json::parse(line).contains("action") ? 1 : 0;
-    EXPECT_EQ(steps, 5) << played;
-}
-
 }  // namespace
 }  // namespace rddlc::cli
