@@ -1,6 +1,9 @@
+#include "planners/gradient/gradient.hpp"
+
 #include "engines/step_derivatives.hpp"
 #include "planners/gradient/action_parameters.hpp"
 #include "planning.hpp"
+#include "solvers/batches/batch.hpp"
 
 #include <gtest/gtest.h>
 
@@ -93,6 +96,44 @@ TEST(Gradient, SaysWhatItNeeds) {
                   "plan:gradient needs the RDDL text of the problem, from which derivatives are "
                   "made");
     }
+}
+
+// The names and the actions of two decisions, of which searches end at once from `stopped` on.
+std::vector<std::pair<std::string, std::vector<std::byte>>> decide_twice(std::int64_t stopped,
+                                                                         std::int64_t replan) {
+    const rddl_simulator& simulator = target();
+    constexpr std::int64_t horizon = 10;
+    GradientOptions options;
+    options.budget.iterations = 50;
+    options.horizon = horizon;
+    options.replan = replan;
+    Gradient planner(
+        {simulator, 1, horizon, default_memory_limit, {}, derivatives_in(PROBLEMS "/target")},
+        options);
+    rddl_batch_options batch_options{};
+    batch_options.horizon = horizon;
+    const solvers::BatchHandle batch = solvers::create_batch(simulator, batch_options);
+    std::vector<std::pair<std::string, std::vector<std::byte>>> all;
+    for (std::int64_t step = 0; step < 2; ++step) {
+        const solvers::Stops stops = [&] {
+            return step >= stopped;
+        };
+        std::vector<std::byte> action(static_cast<std::size_t>(simulator.problem->action_size));
+        Explanation explanation;
+        planner.decide({batch.get(), 0, 0, step, horizon - step, horizon, &stops}, action.data(),
+                       &explanation);
+        all.emplace_back(explanation.candidates.at(0).name, action);
+        const rddl_transition out{};
+        solvers::require_done(simulator, simulator.step(batch.get(), action.data(), &out));
+    }
+    return all;
+}
+
+TEST(Gradient, WithoutAnAscentTheFormerPlanGoesOn) {
+    const auto searched = decide_twice(1, 1), planned = decide_twice(2, 2);
+    EXPECT_EQ(searched[0].first, "plan");
+    EXPECT_EQ(searched, planned);
+    for (const auto& [name, action] : decide_twice(0, 1)) EXPECT_EQ(name, "noop");
 }
 
 TEST(Gradient, KeepsToTheMemoryLimit) {
