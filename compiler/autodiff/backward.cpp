@@ -90,7 +90,6 @@ void Evaluation::propagate(const Instruction& instruction) {
     if (std::ranges::all_of(g, [](double each) { return each == 0; })) return;
     if (propagate_real(instruction)) return;
     const bool is_relaxed = relaxation_.mode != Mode::Exact;
-    const double sharpness = relaxation_.sharpness;
     const Operator op = instruction.op;
     switch (instruction.code) {
         case Code::RealOperator:
@@ -101,39 +100,20 @@ void Evaluation::propagate(const Instruction& instruction) {
             return add_partials(instruction, [&](double a, double b, double v) {
                 return of_int_operator(op, a, b, v, is_relaxed);
             });
-        case Code::ToInt:
-            if (!is_relaxed) return;
-            return add_partials(instruction, [&](double a, double, double) {
-                return of_rounding(op, a, sharpness);
-            });
-        case Code::Comparison:
-            if (!is_relaxed) return;
-            return add_partials(instruction, [&](double a, double b, double) {
-                return of_comparison(op, a, b, sharpness);
-            });
         case Code::Logic:
             return add_partials(instruction,
-                                [&](double a, double b, double) { return of_logic(op, a, b); });
-        case Code::Bernoulli:
-            if (!is_relaxed) return;
-            return add_partials(instruction, [&](double p, double, double v) {
-                if (relaxation_.mode == Mode::StraightThrough) return Partials{1};
-                return Partials{v * (1 - v) / (relaxation_.temperature * p * (1 - p))};
-            });
+                                [op](double a, double b, double) { return of_logic(op, a, b); });
         case Code::DrawReal:
             return add_partials(instruction, [&](double a, double b, double v) {
                 return of_real_draw(instruction.distribution, a, b, v);
             });
+        case Code::ToInt:
+        case Code::Comparison:
+        case Code::Bernoulli:
         case Code::DrawInt:
-            if (!is_relaxed) return;
-            return add_partials(instruction, [&](double a, double b, double) {
-                return of_int_draw(instruction.distribution, a, b);
-            });
         case Code::Binomial:
-            if (!is_relaxed) return;
-            return add_partials(instruction, [](double n, double p, double) {
-                return Partials{p, n};
-            });
+            if (is_relaxed) propagate_relaxed(instruction);
+            return;
         case Code::Select:
         case Code::Gather:
         case Code::IntSum:
@@ -147,6 +127,31 @@ void Evaluation::propagate(const Instruction& instruction) {
         case Code::ArgMax:
         case Code::Fault:
             return;
+    }
+}
+
+// Instructions that have derivatives only where they are relaxed.
+void Evaluation::propagate_relaxed(const Instruction& instruction) {
+    const Operator op = instruction.op;
+    const double sharpness = relaxation_.sharpness;
+    if (instruction.code == Code::ToInt) {
+        add_partials(instruction,
+                     [&](double a, double, double) { return of_rounding(op, a, sharpness); });
+    } else if (instruction.code == Code::Comparison) {
+        add_partials(instruction, [&](double a, double b, double) {
+            return of_comparison(op, a, b, sharpness);
+        });
+    } else if (instruction.code == Code::Bernoulli) {
+        add_partials(instruction, [&](double p, double, double v) {
+            if (relaxation_.mode == Mode::StraightThrough) return Partials{1};
+            return Partials{v * (1 - v) / (relaxation_.temperature * p * (1 - p))};
+        });
+    } else if (instruction.code == Code::DrawInt) {
+        add_partials(instruction, [&](double a, double b, double) {
+            return of_int_draw(instruction.distribution, a, b);
+        });
+    } else {  // Binomial
+        add_partials(instruction, [](double n, double p, double) { return Partials{p, n}; });
     }
 }
 

@@ -40,6 +40,11 @@ class Evaluation {
     // The program must outlive it.
     Evaluation(const StraightLine& program, const Relaxation& relaxation);
 
+    // The memory of all slots.
+    std::int64_t bytes() const {
+        return static_cast<std::int64_t>((values_.size() + adjoints_.size()) * sizeof(Lane));
+    }
+
     // Inputs of the next forward(): numbers of the state, then of the action.
     Lane& state(std::size_t number) { return values_[program_.state_slot(number)]; }
     Lane& action(std::size_t number) { return values_[program_.action_slot(number)]; }
@@ -77,6 +82,7 @@ class Evaluation {
     bool propagate_real(const Instruction& instruction);
     template <class Terms>
     void add_lanes(Slot slot, const Terms& term);
+    void propagate_relaxed(const Instruction& instruction);
     void propagate_others(const Instruction& instruction);
     void propagate_list(const Instruction& instruction, std::size_t lane);
     template <class Factor>

@@ -3,6 +3,7 @@
 
 #include "autodiff/evaluation.hpp"
 #include "support/failure.hpp"
+#include "support/sigmoid.hpp"
 
 #include <rddl/random/distributions.hpp>
 #include <rddl/values/ops.hpp>
@@ -15,10 +16,6 @@
 
 namespace rddlc::autodiff {
 
-inline double sigmoid(double x) {
-    return 1 / (1 + std::exp(-x));
-}
-
 // The context records faults. `get` gives the value of a slot.
 template <class Get>
 class InstructionValue {
@@ -27,7 +24,7 @@ class InstructionValue {
                      Context& context)
         : program_(program), instruction_(instruction), get_(get), context_(context) {}
 
-    // As the other engines compute it.
+    // As the other engines compute it. Over 40 lines: a table of all codes.
     double exact() const {
         const Instruction& i = instruction_;
         switch (i.code) {

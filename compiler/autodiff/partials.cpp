@@ -1,14 +1,17 @@
 #include "autodiff/partials.hpp"
 
-#include "autodiff/instruction_value.hpp"
+#include "support/sigmoid.hpp"
 
 #include <cmath>
+#include <limits>
 
 namespace rddlc::autodiff {
 namespace {
 
-// The derivative of ln(gamma(x)) for x > 0: recurrence, then the asymptotic series.
+// The derivative of ln(gamma(x)): recurrence, then the asymptotic series. Elsewhere than for x > 0
+// gamma faults, and the recurrence might take for ever.
 double digamma(double x) {
+    if (!(x > 0)) return std::numeric_limits<double>::quiet_NaN();
     double shift = 0;
     for (; x < 10; x += 1) shift -= 1 / x;
     const double y = 1 / (x * x);
@@ -27,6 +30,7 @@ Partials of_power(double base, double exponent, double value) {
 
 }  // namespace
 
+// Over 40 lines: a table of all operators, of which the compiler sees that none is missing.
 Partials of_operator(Operator op, double a, double b, double v) {
     switch (op) {
         case Operator::Add:

@@ -81,7 +81,8 @@ struct StraightLine {
     Slot action_slot(std::size_t number) const { return static_cast<Slot>(state_count + number); }
 };
 
-// So many instructions at most: beyond, Failure says that the problem is too large.
+// So many instructions at most, and as many operands of lists: beyond, Failure says that the
+// problem is too large.
 inline constexpr std::size_t most_instructions = 20'000'000;
 
 // From the output of `ground`. Throws Failure with a sentence for external functions, functions of

@@ -22,7 +22,7 @@ namespace {
 
 using ir::NodeId;
 
-// Where elements stand in `operands`.
+// A list says where its elements stand in `operands`.
 struct List {
     std::uint32_t first, count;
 };
@@ -235,6 +235,7 @@ class Unroller {
     List add_list(const std::vector<Slot>& slots) {
         const auto [found, is_new] = lists_.try_emplace(slots);
         if (is_new) {
+            if (slots.size() > most_instructions - result_.operands.size()) give_up_on_size();
             found->second = {static_cast<std::uint32_t>(result_.operands.size()),
                              static_cast<std::uint32_t>(slots.size())};
             result_.operands.insert(result_.operands.end(), slots.begin(), slots.end());
@@ -488,16 +489,19 @@ class Unroller {
         if (!is_new) return found->second;
         if (instruction.place == 0 && is_constant(instruction))
             return found->second = constant(constant_value(instruction));
-        if (result_.instructions.size() == most_instructions)
-            throw Failure(fmt::format("a step of this instance takes more than {} instructions, "
-                                      "which is too many for derivatives",
-                                      most_instructions),
-                          "planners that sample, such as plan:cem, need no derivatives");
+        if (result_.instructions.size() == most_instructions) give_up_on_size();
         Instruction made = instruction;
         if (made.place > 0) --made.place;
         made.out = found->second = new_slot();
         result_.instructions.push_back(made);
         return made.out;
+    }
+
+    [[noreturn]] static void give_up_on_size() {
+        throw Failure(fmt::format("a step of this instance takes more than {} instructions or "
+                                  "operands of lists, which is too many for derivatives",
+                                  most_instructions),
+                      "planners that sample, such as plan:cem, need no derivatives");
     }
 
     template <class Visit>

@@ -1,5 +1,7 @@
 #include "planners/gradient/action_parameters.hpp"
 
+#include "support/sigmoid.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -12,10 +14,6 @@ constexpr double most_bool = 1.5;  // a probability of 0.0025
 constexpr double first_bool = 0.5;
 // A real beside its only bound is softplus(u) away from it, which hardly has a slope further down.
 constexpr double least_beside_bound = -6, first_beside_bound = -2;
-
-double sigmoid(double x) {
-    return 1 / (1 + std::exp(-x));
-}
 
 bool is_bounded(const solvers::RealHead& head) {
     return head.range == solvers::RealHead::Range::Bounded ||
@@ -136,25 +134,44 @@ void ActionParameters::limit_changes(std::span<double> parameters) const {
     }
 }
 
+// From 0 to 1: the chance of a bool, for numbers how far they are from their default.
+double ActionParameters::size_of_change(std::size_t i, double parameter) const {
+    if (kinds_[i] == Kind::Bool) return chance_to_differ(i, parameter);
+    const solvers::RealHead& head = heads_[i];
+    const double distance = std::abs(value(i, parameter) - static_cast<double>(default_values_[i]));
+    return is_bounded(head) ? distance / (head.upper - head.lower)
+                            : distance / (head.scale + distance);
+}
+
+float ActionParameters::written(std::size_t i, double parameter, double threshold) const {
+    switch (kinds_[i]) {
+        case Kind::Bool:
+            if (chance_to_differ(i, parameter) > threshold)
+                return default_values_[i] > 0.5f ? 0.0f : 1.0f;
+            break;
+        case Kind::Real:
+            return static_cast<float>(value(i, parameter));
+        case Kind::Int:
+            return static_cast<float>(std::nearbyint(value(i, parameter)));
+        case Kind::Fixed:
+            break;
+    }
+    return default_values_[i];
+}
+
 void ActionParameters::write(std::span<const double> parameters, double threshold,
                              float* values) const {
-    std::ranges::copy(default_values_, values);
     std::vector<std::size_t> changed;
     for (std::size_t i = 0; i < parameters.size(); ++i) {
-        if (kinds_[i] == Kind::Bool) {
-            if (chance_to_differ(i, parameters[i]) > threshold) changed.push_back(i);
-        } else if (kinds_[i] != Kind::Fixed) {
-            const double number = value(i, parameters[i]);
-            values[i] =
-                static_cast<float>(kinds_[i] == Kind::Int ? std::nearbyint(number) : number);
-        }
+        values[i] = written(i, parameters[i], threshold);
+        if (values[i] != default_values_[i]) changed.push_back(i);
     }
+    if (most_changes_ < 0 || std::ssize(changed) <= most_changes_) return;
     std::ranges::stable_sort(changed, [&](std::size_t a, std::size_t b) {
-        return chance_to_differ(a, parameters[a]) > chance_to_differ(b, parameters[b]);
+        return size_of_change(a, parameters[a]) > size_of_change(b, parameters[b]);
     });
-    if (most_changes_ >= 0 && std::ssize(changed) > most_changes_)
-        changed.resize(static_cast<std::size_t>(most_changes_));
-    for (const std::size_t i : changed) values[i] = values[i] > 0.5f ? 0.0f : 1.0f;
+    for (const std::size_t i : std::span(changed).subspan(static_cast<std::size_t>(most_changes_)))
+        values[i] = default_values_[i];
 }
 
 }  // namespace rddlc::planners

@@ -36,12 +36,15 @@ class ActionParameters {
     // SOGBOFA: Cui and Khardon, 2016).
     void project(std::span<double> parameters) const;
     // Values of the action; bools differ from their default if they are likelier to than this.
+    // Where more values differ than max-nondef-actions allows, the smallest changes are not made.
     void write(std::span<const double> parameters, double threshold, float* values) const;
 
   private:
     enum class Kind { Fixed, Real, Int, Bool };
 
     double chance_to_differ(std::size_t i, double parameter) const;
+    double size_of_change(std::size_t i, double parameter) const;
+    float written(std::size_t i, double parameter, double threshold) const;
     void limit_changes(std::span<double> parameters) const;
 
     std::vector<Kind> kinds_;

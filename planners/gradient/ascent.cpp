@@ -29,18 +29,20 @@ bool Ascent::improve(std::span<AscendingPlan* const> plans, std::span<const doub
                      const solvers::Stops* stops) {
     const std::size_t row = static_cast<std::size_t>(horizon) * actions_.count();
     gradients_.assign(plans.size() * row, 0.0);
-    for (AscendingPlan* const plan : plans) plan->value = 0;
+    values_.assign(plans.size(), 0.0);
     const std::size_t all = plans.size() * scenarios_;
     for (std::size_t first = 0; first < all; first += lanes) {
         if (solvers::is_stopped(stops)) return false;
         begin_group(first, std::min(lanes, all - first), seeds);
         const std::size_t steps = play(plans, state, steps_made, static_cast<std::size_t>(horizon));
         for (std::size_t k = 0; k < group_size_; ++k)
-            plans[(first + k) / scenarios_]->value += returns_[k] / static_cast<double>(scenarios_);
+            values_[(first + k) / scenarios_] += returns_[k] / static_cast<double>(scenarios_);
         pull_back(plans, steps_made, steps);
     }
-    for (std::size_t p = 0; p < plans.size(); ++p)
+    for (std::size_t p = 0; p < plans.size(); ++p) {
+        plans[p]->value = values_[p];
         move(*plans[p], std::span(gradients_).subspan(p * row, row), rate, iteration);
+    }
     return true;
 }
 
@@ -68,7 +70,7 @@ std::size_t Ascent::play(std::span<AscendingPlan* const> plans, std::span<const 
                          std::int64_t steps_made, std::size_t horizon) {
     const std::size_t count = state.size();
     states_.resize((horizon + 1) * count);
-    alive_.assign(horizon, Lane{});
+    reward_weight_.assign(horizon, Lane{});
     for (std::size_t i = 0; i < count; ++i) states_[i].fill(state[i]);
     Lane alive{};
     std::fill_n(alive.begin(), group_size_, 1.0);
@@ -83,7 +85,7 @@ std::size_t Ascent::play(std::span<AscendingPlan* const> plans, std::span<const 
         bool any = false;
         for (std::size_t k = 0; k < lanes; ++k) {
             if (derivatives_.has_failed(k) || !std::isfinite(reward[k])) alive[k] = 0;
-            alive_[t][k] = alive[k] * discount;
+            reward_weight_[t][k] = alive[k] * discount;
             if (alive[k] != 0) returns_[k] += discount * reward[k];
             if (derivatives_.is_over(k)) alive[k] = 0;
             any = any || alive[k] != 0;
@@ -103,7 +105,7 @@ void Ascent::pull_back(std::span<AscendingPlan* const> plans, std::int64_t steps
         write_actions(plans, t);
         derivatives_.step(steps_made + static_cast<std::int64_t>(t),
                           std::span(states_).subspan(t * count, count), action_);
-        derivatives_.pull_back(next_adjoint_, alive_[t], adjoint_, action_adjoint_);
+        derivatives_.pull_back(next_adjoint_, reward_weight_[t], adjoint_, action_adjoint_);
         for (std::size_t k = 0; k < group_size_; ++k) {
             const std::size_t plan = (group_first_ + k) / scenarios_;
             double* const gradient = gradients_.data() + plan * row + t * actions_.count();
@@ -111,7 +113,7 @@ void Ascent::pull_back(std::span<AscendingPlan* const> plans, std::int64_t steps
             for (std::size_t i = 0; i < actions_.count(); ++i)
                 gradient[i] += action_adjoint_[i][k] * actions_.slope(i, parameters[i]);
             // An episode that was over before has no part in what comes before.
-            if (alive_[t][k] == 0)
+            if (reward_weight_[t][k] == 0)
                 for (Lane& adjoint : adjoint_) adjoint[k] = 0;
         }
         next_adjoint_.swap(adjoint_);

@@ -52,10 +52,11 @@ class Ascent {
     double discount_;
 
     std::size_t group_first_ = 0, group_size_ = 0;
-    std::vector<Lane> states_;  // of each step of the group, state_count() each
-    std::vector<Lane> alive_;   // of each step: 1 where its reward counts, else 0
+    std::vector<Lane> states_;         // of each step of the group, state_count() each
+    std::vector<Lane> reward_weight_;  // of each step: its discount; 0 where the episode is over
     Lane returns_{};
     std::vector<Lane> action_, adjoint_, next_adjoint_, action_adjoint_;
+    std::vector<double> values_;     // of all plans: their returns
     std::vector<double> gradients_;  // of all plans, a row of parameters for each
 };
 

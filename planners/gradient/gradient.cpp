@@ -52,10 +52,6 @@ std::vector<std::unique_ptr<solvers::StepDerivatives>> derivatives_of(
     return derivatives;
 }
 
-std::size_t plans_of(const rddl_problem& problem, const GradientOptions& options) {
-    return static_cast<std::size_t>(options.plans.value_or(problem.stochastic ? 2 : 8));
-}
-
 }  // namespace
 
 Gradient::Gradient(const PlannerContext& context, const GradientOptions& options)
@@ -65,11 +61,12 @@ Gradient::Gradient(const PlannerContext& context, const GradientOptions& options
       records_(simulator_),
       parameters_(simulator_, space_),
       derivatives_(derivatives_of(context, options)),
-      plans_(plans_of(*simulator_.problem, options) * derivatives_.size()),
-      scenarios_(scenarios_of(*simulator_.problem, options)),
-      draws_(simulator_.problem->stochastic ? 8 : 1),
       horizon_(options.horizon.value_or(default_horizon)),
-      futures_(simulator_, static_cast<std::int64_t>(draws_ * (plans_ * thresholds.size() + 2)),
+      population_(population_of(context, options, horizon_, derivatives_, thresholds.size())),
+      plans_(population_.plans * derivatives_.size()),
+      scenarios_(scenarios_of(*simulator_.problem, options)),
+      futures_(simulator_,
+               static_cast<std::int64_t>(population_.draws * (plans_ * thresholds.size() + 2)),
                context.horizon),
       single_(simulator_, 1, context.horizon),
       repair_(simulator_, space_, futures_.count()),
@@ -97,6 +94,7 @@ Gradient::Memory& Gradient::memory_of(const DecisionPoint& point, RandomStream& 
     auto& memory = memories_[static_cast<std::size_t>(point.place)];
     if (memory && point.step > 0) return *memory;
     memory.emplace();
+    memory->choice.kind = base_ ? Candidate::Kind::Policy : Candidate::Kind::Noop;
     const std::size_t count = static_cast<std::size_t>(horizon_) * parameters_.count();
     for (std::size_t p = 0; p < plans_; ++p) {
         AscendingPlan plan;
@@ -109,7 +107,7 @@ Gradient::Memory& Gradient::memory_of(const DecisionPoint& point, RandomStream& 
     return *memory;
 }
 
-// By noise whose correlation from step to step is 0.9.
+// Adds noise whose correlation from step to step is 0.9.
 void Gradient::disturb(AscendingPlan& plan, double spread, RandomStream& stream) const {
     constexpr double correlation = 0.9;
     const std::size_t count = parameters_.count();
@@ -135,10 +133,7 @@ void Gradient::decide(const DecisionPoint& point, std::byte* action, Explanation
     } else if (explanation) {
         explanation->note = "goes on by the plan of an earlier step";
     }
-    const auto kind = memory.by_policy ? Candidate::Kind::Policy
-                      : memory.by_noop ? Candidate::Kind::Noop
-                                       : Candidate::Kind::Plan;
-    write_first({.kind = kind, .threshold = memory.threshold}, memory, point, action);
+    write_first(memory.choice, memory, point, action);
     if (explanation) {
         explanation->iterations = meter.iterations();
         explanation->steps = meter.steps();
@@ -156,6 +151,7 @@ void Gradient::search(const DecisionPoint& point, Memory& memory, RandomStream& 
         plan.mean.assign(plan.parameters.size(), 0.0);
         plan.square.assign(plan.parameters.size(), 0.0);
     }
+    memory.is_improved = false;
     const std::int64_t depth = std::min(horizon_, point.left);
     find_candidates(memory);
     ascend(point, memory, stream, meter);
@@ -166,9 +162,6 @@ void Gradient::search(const DecisionPoint& point, Memory& memory, RandomStream& 
     else
         rank_by_ascents(memory);
     const Candidate& best = candidates_[order_.front()];
-    memory.by_policy = best.kind == Candidate::Kind::Policy;
-    memory.by_noop = best.kind == Candidate::Kind::Noop;
-    memory.threshold = best.threshold;
     if (explanation) {
         explanation->depth = compared;
         note(memory, point, *explanation);
@@ -177,6 +170,8 @@ void Gradient::search(const DecisionPoint& point, Memory& memory, RandomStream& 
         std::rotate(memory.plans.begin(),
                     memory.plans.begin() + static_cast<std::ptrdiff_t>(best.plan),
                     memory.plans.begin() + static_cast<std::ptrdiff_t>(best.plan) + 1);
+    memory.choice = best;
+    memory.choice.plan = 0;
 }
 
 // Leaves room for the comparison.
@@ -291,22 +286,21 @@ std::int64_t Gradient::compare(const DecisionPoint& point, const Memory& memory,
     return t;
 }
 
-// By the return that each plan had in its last ascent, if that was exact; before the first ascent
-// no-op, or the policy.
+// Plans count by their return in the last ascent, if that was exact. Without an ascent the choice
+// of the search before is kept, at first no-op or the policy.
 void Gradient::rank_by_ascents(const Memory& memory) {
     constexpr double worst = -std::numeric_limits<double>::infinity();
     const bool is_mixed = options_.relaxed == Relaxed::All;
     for (Candidate& candidate : candidates_) {
+        candidate.error = 0;
+        if (!memory.is_improved) {
+            candidate.value = candidate.has_action_of(memory.choice) ? 0 : worst;
+            continue;
+        }
         const bool is_plan = candidate.kind == Candidate::Kind::Plan;
         const bool is_exact = !is_mixed || candidate.plan % ascents_.size() == 0;
         const bool counts = is_plan && is_exact && candidate.threshold == thresholds[0];
-        candidate.error = 0;
-        if (memory.is_improved)
-            candidate.value = counts ? memory.plans[candidate.plan].value : worst;
-        else
-            candidate.value = is_plan ? worst : 0;
-        if (!memory.is_improved && candidate.kind == Candidate::Kind::Noop && base_)
-            candidate.value = worst;
+        candidate.value = counts ? memory.plans[candidate.plan].value : worst;
     }
     sort_candidates();
 }
@@ -369,7 +363,7 @@ void Gradient::note(const Memory& memory, const DecisionPoint& point, Explanatio
                                           : candidate.kind == Candidate::Kind::Noop ? "noop"
                                                                                     : "policy",
                                           std::move(action), candidate.value, candidate.error,
-                                          static_cast<std::int64_t>(draws_)});
+                                          static_cast<std::int64_t>(population_.draws)});
     }
 }
 

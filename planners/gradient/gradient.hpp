@@ -7,6 +7,7 @@
 #include "planners/gradient/action_parameters.hpp"
 #include "planners/gradient/ascent.hpp"
 #include "planners/gradient/gradient_options.hpp"
+#include "planners/gradient/population.hpp"
 #include "planners/planner/planner.hpp"
 #include "planners/simulation/base_policy.hpp"
 #include "planners/simulation/budget.hpp"
@@ -30,21 +31,22 @@ class Gradient : public Planner {
     void decide(const DecisionPoint& point, std::byte* action, Explanation* explanation) override;
 
   private:
-    // The memory of an episode, from one decision to the next.
-    struct Memory {
-        std::vector<AscendingPlan> plans;  // the best one first; each ascent takes every n-th
-        double threshold = 0.5;            // by which its bools are chosen
-        bool by_policy = false;            // the policy was better than all of them
-        bool by_noop = false;
-        bool is_improved = false;     // a search has moved the plans
-        std::int64_t steps_left = 0;  // that are made before the next search
-    };
     // A candidate is a plan with one way to round its bools, no-op, or the policy.
     struct Candidate {
-        enum class Kind { Plan, Noop, Policy } kind;
+        enum class Kind { Plan, Noop, Policy } kind = Kind::Noop;
         std::size_t plan = 0;
         double threshold = 0.5;
         double value = 0, error = 0;
+        bool has_action_of(const Candidate& other) const {
+            return kind == other.kind && plan == other.plan && threshold == other.threshold;
+        }
+    };
+    // The memory of an episode, from one decision to the next.
+    struct Memory {
+        std::vector<AscendingPlan> plans;  // the best one first; each ascent takes every n-th
+        Candidate choice;                  // of the last search; its plan, if it is one, is 0
+        bool is_improved = false;          // this search has moved the plans
+        std::int64_t steps_left = 0;       // that are made before the next search
     };
 
     Memory& memory_of(const DecisionPoint& point, RandomStream& stream);
@@ -72,11 +74,12 @@ class Gradient : public Planner {
     solvers::ActionRecords records_;
     ActionParameters parameters_;
     std::vector<std::unique_ptr<solvers::StepDerivatives>> derivatives_;  // by each relaxation
-    std::size_t plans_, scenarios_, draws_;  // draws: of each candidate's comparison
     std::int64_t horizon_;
-    std::vector<Ascent> ascents_;  // by each relaxation
-    Futures futures_;              // of the comparison
-    Futures single_;               // of the action that is made
+    GradientPopulation population_;
+    std::size_t plans_, scenarios_;  // plans: of all relaxations
+    std::vector<Ascent> ascents_;    // by each relaxation
+    Futures futures_;                // of the comparison
+    Futures single_;                 // of the action that is made
     solvers::RepairBuffers repair_, single_repair_;
     std::optional<BasePolicy> base_;
     std::vector<std::optional<Memory>> memories_;

@@ -75,7 +75,9 @@ class Derivatives {
             const std::size_t count = std::min(lanes, reward_adjoints.size() - first);
             play(states.data(), actions.data(), seeds.data(), steps_made, first, count);
             solvers::LaneNumbers reward_adjoint{};
+            std::ranges::fill(next_, solvers::LaneNumbers{});
             for (std::size_t k = 0; k < count; ++k) {
+                if (step_->has_failed(k)) continue;
                 for (std::size_t i = 0; i < next_.size(); ++i)
                     next_[i][k] = next_adjoints.data()[(first + k) * next_.size() + i];
                 reward_adjoint[k] = reward_adjoints.data()[first + k];

@@ -162,11 +162,7 @@ class Derivatives:
         count = len(states)
         states = _array("states", states, (count, len(self.state_names)))
         actions = _array("actions", actions, (count, len(self.action_names)))
-        try:
-            numbers = np.ascontiguousarray(np.broadcast_to(np.asarray(seeds, np.uint64), (count,)))
-        except (ValueError, TypeError, OverflowError):
-            raise ArgumentError(f"seeds are a whole number, or {count} of them") from None
-        return states, actions, numbers
+        return states, actions, _seeds(seeds, count)
 
     def _state(self, given: Any) -> Array:
         model = self.problem.model
@@ -196,6 +192,26 @@ def _array(what: str, given: Any, shape: tuple[int, ...]) -> Array:
     if array.shape != shape:
         raise ArgumentError(f"{what}: the shape is {shape}, not {array.shape}")
     return array
+
+
+def _seeds(given: Any, count: int) -> NDArray[np.uint64]:
+    try:
+        # Objects keep whole numbers of any size, and fractions, which a cast would cut off.
+        numbers = np.asarray(given, None if isinstance(given, np.ndarray) else object)
+        if _are_seeds(numbers):
+            return np.ascontiguousarray(np.broadcast_to(numbers.astype(np.uint64), (count,)))
+    except (ValueError, TypeError, OverflowError):
+        pass
+    raise ArgumentError(f"seeds are a whole number from 0 to 2^64 - 1, or {count} of them")
+
+
+def _are_seeds(numbers: NDArray[Any]) -> bool:
+    if numbers.dtype.kind == "O":
+        return all(
+            isinstance(each, (int, np.integer)) and not isinstance(each, bool) and each >= 0
+            for each in numbers.flat
+        )
+    return numbers.dtype.kind in "iu" and bool((numbers >= 0).all())
 
 
 def _torch_step() -> Any:

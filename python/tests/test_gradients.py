@@ -23,20 +23,36 @@ class Gradients(unittest.TestCase):
         state = env.state_from({"position": -0.43, "velocity": 0.01})
         action = {name: 0.25 for name in env.action_space.spaces}
         found = env.jacobian(state, action)
-        count, width = len(found.state_names), 1e-6
-        self.assertEqual(found.next_by_state.shape, (count, count))
-        self.assertEqual(found.next_by_action.shape, (count, len(found.action_names)))
-        self.assertEqual(found.reward_by_state.shape, (count,))
         step = Derivatives(env)
-        base = np.array([[-0.43, 0.01]]) if found.state_names[0] == "position" else np.array([[0.01, -0.43]])
+        values = {"position": -0.43, "velocity": 0.01}
+        base = np.array([[values[name] for name in found.state_names]])
         push = np.full((1, len(found.action_names)), 0.25)
-        for column in range(count):
-            shift = np.zeros_like(base)
-            shift[0, column] = width
-            above, below = (step.step(base + sign * shift, push)[0] for sign in (1, -1))
-            np.testing.assert_allclose(
-                found.next_by_state[:, column], (above - below)[0] / (2 * width), atol=1e-6
+
+        def differences(by_state: np.ndarray, by_action: np.ndarray) -> tuple[np.ndarray, float]:
+            (above, gain), (below, loss) = (
+                step.step(base + sign * by_state, push + sign * by_action) for sign in (1, -1)
             )
+            return (above - below)[0] / 2e-6, (gain - loss)[0] / 2e-6
+
+        pairs = (
+            (found.next_by_state, found.reward_by_state, 1e-6, 0),
+            (found.next_by_action, found.reward_by_action, 0, 1e-6),
+        )
+        for by_next, by_reward, of_state, of_action in pairs:
+            count = len(by_reward)
+            self.assertEqual(by_next.shape, (len(found.state_names), count))
+            self.assertGreater(count, 0)
+            for column in range(count):
+                unit = np.zeros((1, count))
+                unit[0, column] = 1
+                of_next, of_reward = differences(
+                    of_state * unit if of_state else np.zeros_like(base),
+                    of_action * unit if of_action else np.zeros_like(push),
+                )
+                np.testing.assert_allclose(by_next[:, column], of_next, atol=1e-6)
+                self.assertAlmostEqual(by_reward[column], of_reward, places=6)
+        self.assertTrue(found.next_by_action.any())
+        self.assertTrue(found.reward_by_action.any())
 
     def test_values_are_those_of_the_environment(self) -> None:
         env = rddlc.make(*RESERVOIR)
@@ -68,6 +84,12 @@ class Gradients(unittest.TestCase):
             Derivatives(rddlc.make(*NETWORK), relax="no")
         with self.assertRaisesRegex(rddlc.ArgumentError, "sharpness"):
             Derivatives(rddlc.make(*NETWORK), sharpness=0)
+        rows = np.zeros((2, len(step.state_names))), np.zeros((2, len(step.action_names)))
+        for seeds in (1.5, [1.0, 2.0], -1, np.array([3, -1]), 2**64, [1, 2, 3], "a", True):
+            with self.subTest(seeds=seeds), self.assertRaisesRegex(rddlc.ArgumentError, "seeds are"):
+                step.step(*rows, seeds=seeds)
+        step.step(*rows, seeds=2**64 - 1)
+        step.step(*rows, seeds=[2**63, 1])
         with self.assertRaises(rddlc.ActionError):
             step.jacobian({}, {"nothing": 1})
 

@@ -35,6 +35,8 @@ class StepDerivatives {
 
     virtual std::size_t state_count() const = 0;
     virtual std::size_t action_count() const = 0;
+    // The memory of its values and derivatives.
+    virtual std::int64_t bytes() const = 0;
     // Whether a relaxation makes a difference.
     virtual bool can_be_relaxed() const = 0;
     virtual void read_state(const std::byte* record, std::span<double> numbers) const = 0;

@@ -3,7 +3,8 @@
 //     check_gradients [FOLDER [STEPS [all]]]
 //
 // takes the first instance of each folder with a domain.rddl, or all of them. Without a folder it
-// is that of rddlrepository.
+// is that of rddlrepository, of whose instances it is known how many are refused. An instance with
+// derivatives has to be among them.
 #include "../parse/rddl_repository.hpp"
 #include "driver/driver.hpp"
 #include "step_check.hpp"
@@ -21,6 +22,9 @@ namespace fs = std::filesystem;
 namespace {
 
 using namespace rddlc;
+
+// Of the first instances of its folders.
+constexpr int refused_of_repository = 1;
 
 std::vector<fs::path> instances_of(const fs::path& folder, bool takes_all) {
     std::set<fs::path> folders;
@@ -41,8 +45,13 @@ std::vector<fs::path> instances_of(const fs::path& folder, bool takes_all) {
     return found;
 }
 
-// Whether all is right.
-bool check(const fs::path& instance, std::int64_t steps) {
+// What was found in all instances.
+struct Findings {
+    int checked = 0, refused = 0, wrong = 0;
+    std::int64_t derivatives = 0;
+};
+
+void check(const fs::path& instance, std::int64_t steps, Findings& findings) {
     const std::string name = (instance.parent_path().filename() / instance.stem()).string();
     CompileOptions options;
     options.inputs = {instance.parent_path() / "domain.rddl", instance};
@@ -50,7 +59,8 @@ bool check(const fs::path& instance, std::int64_t steps) {
     const Compilation compilation = compile(options);
     if (!compilation.program) {
         fmt::print("{:<40} does not compile\n", name);
-        return false;
+        ++findings.wrong;
+        return;
     }
     const auto begin = std::chrono::steady_clock::now();
     try {
@@ -63,10 +73,12 @@ bool check(const fs::path& instance, std::int64_t steps) {
             "{:>6.2f} s {}\n",
             name, result.instructions, result.values, result.derivatives, result.not_smooth,
             seconds.count(), is_right ? "" : "WRONG: " + result.first_complaint);
-        return is_right;
+        ++findings.checked;
+        findings.wrong += is_right ? 0 : 1;
+        findings.derivatives += result.derivatives;
     } catch (const Failure& failure) {
         fmt::print("{:<40} refused: {}\n", name, failure.what());
-        return true;
+        ++findings.refused;
     }
 }
 
@@ -80,8 +92,14 @@ int main(int argc, char** argv) {
     }
     const std::int64_t steps = argc > 2 ? std::atoll(argv[2]) : 10;
     const bool takes_all = argc > 3;
-    bool all = true;
-    for (const fs::path& instance : instances_of(folder, takes_all))
-        all = check(instance, steps) && all;
-    return all ? 0 : 1;
+    Findings found;
+    for (const fs::path& instance : instances_of(folder, takes_all)) check(instance, steps, found);
+    fmt::print("{} checked, {} refused, {} wrong, {} derivatives\n", found.checked, found.refused,
+               found.wrong, found.derivatives);
+    const bool is_known = argc == 1;
+    const bool refuses_others = is_known && found.refused != refused_of_repository;
+    if (refuses_others) fmt::print("{} refusals were expected\n", refused_of_repository);
+    const bool is_empty = found.checked == 0 || found.derivatives == 0;
+    if (is_empty) fmt::print("no derivative was checked\n");
+    return found.wrong > 0 || refuses_others || is_empty ? 1 : 0;
 }

@@ -1,6 +1,9 @@
+#include "planners/gradient/gradient.hpp"
+
 #include "engines/step_derivatives.hpp"
 #include "planners/gradient/action_parameters.hpp"
 #include "planning.hpp"
+#include "solvers/batches/batch.hpp"
 
 #include <gtest/gtest.h>
 
@@ -22,8 +25,10 @@ solvers::DerivativesSource derivatives_in(const fs::path& folder) {
 }
 
 Played run_gradient(const rddl_simulator& simulator, const fs::path& folder,
-                    const std::string& options, std::int64_t episodes = 1, int threads = 1) {
-    return run(simulator, "plan:gradient," + options, episodes, threads, 0, derivatives_in(folder));
+                    const std::string& options, std::int64_t episodes = 1, int threads = 1,
+                    std::int64_t memory_limit = default_memory_limit) {
+    return run(simulator, "plan:gradient," + options, episodes, threads, 0, derivatives_in(folder),
+               memory_limit);
 }
 
 TEST(Gradient, FindsTheOptimumOfAMixedProblem) {
@@ -36,9 +41,11 @@ TEST(Gradient, FindsTheOptimumOfAMixedProblem) {
     EXPECT_EQ(plan.thought(0, 0).iterations, 200);
 }
 
-// A gradient of each plan is worth more than as many samples.
 TEST(Gradient, IsBetterThanNoop) {
-    const double noop = run(reservoir(), "plan:cem,steps=1").mean();
+    const double noop =
+        solvers::summary_of(
+            solvers::run_episodes(reservoir(), solvers::noop_policy(reservoir()), {}, {}))
+            .undiscounted_return.mean;
     const Played plan = run_gradient(reservoir(), EXAMPLES "/reservoir", "iterations=5,horizon=10");
     EXPECT_GT(plan.mean(), noop);
     EXPECT_EQ(plan.summary.illegal_actions, 0);
@@ -49,6 +56,7 @@ TEST(Gradient, SameIterationsGiveTheSameActionsOnAnyNumberOfThreads) {
     const Played one = run_gradient(network(), EXAMPLES "/network", options, 3, 1);
     const Played two = run_gradient(network(), EXAMPLES "/network", options, 3, 2);
     EXPECT_EQ(one.returns(), two.returns());
+    ASSERT_FALSE(one.explanation.empty());
     for (const auto& [place, explanation] : one.explanation)
         EXPECT_EQ(explanation.candidates.at(0).action,
                   two.explanation.at(place).candidates.at(0).action);
@@ -62,6 +70,7 @@ TEST(Gradient, ActsWithinAnyBudgetAndLegally) {
             const Played plan = run_gradient(*simulator, std::string(EXAMPLES) + folder, budget);
             EXPECT_EQ(plan.summary.illegal_actions, 0) << folder << budget;
             EXPECT_EQ(plan.summary.episodes, 1) << folder << budget;
+            ASSERT_FALSE(plan.explanation.empty()) << folder << budget;
             if (!budget.starts_with("steps=")) continue;
             for (const auto& [place, explanation] : plan.explanation)
                 EXPECT_LE(explanation.steps, std::stoll(budget.substr(6))) << folder << budget;
@@ -89,6 +98,62 @@ TEST(Gradient, SaysWhatItNeeds) {
     }
 }
 
+// The names and the actions of two decisions, of which searches end at once from `stopped` on.
+std::vector<std::pair<std::string, std::vector<std::byte>>> decide_twice(std::int64_t stopped,
+                                                                         std::int64_t replan) {
+    const rddl_simulator& simulator = target();
+    constexpr std::int64_t horizon = 10;
+    GradientOptions options;
+    options.budget.iterations = 50;
+    options.horizon = horizon;
+    options.replan = replan;
+    Gradient planner(
+        {simulator, 1, horizon, default_memory_limit, {}, derivatives_in(PROBLEMS "/target")},
+        options);
+    rddl_batch_options batch_options{};
+    batch_options.horizon = horizon;
+    const solvers::BatchHandle batch = solvers::create_batch(simulator, batch_options);
+    std::vector<std::pair<std::string, std::vector<std::byte>>> all;
+    for (std::int64_t step = 0; step < 2; ++step) {
+        const solvers::Stops stops = [&] {
+            return step >= stopped;
+        };
+        std::vector<std::byte> action(static_cast<std::size_t>(simulator.problem->action_size));
+        Explanation explanation;
+        planner.decide({batch.get(), 0, 0, step, horizon - step, horizon, &stops}, action.data(),
+                       &explanation);
+        all.emplace_back(explanation.candidates.at(0).name, action);
+        const rddl_transition out{};
+        solvers::require_done(simulator, simulator.step(batch.get(), action.data(), &out));
+    }
+    return all;
+}
+
+TEST(Gradient, WithoutAnAscentTheFormerPlanGoesOn) {
+    const auto searched = decide_twice(1, 1), planned = decide_twice(2, 2);
+    EXPECT_EQ(searched[0].first, "plan");
+    EXPECT_EQ(searched, planned);
+    for (const auto& [name, action] : decide_twice(0, 1)) EXPECT_EQ(name, "noop");
+}
+
+TEST(Gradient, KeepsToTheMemoryLimit) {
+    const auto trials_with = [](std::int64_t limit) {
+        const Played plan = run_gradient(network(), EXAMPLES "/network",
+                                         "iterations=1,horizon=2,plans=50", 1, 1, limit);
+        return plan.thought(0, 0).candidates.at(0).trials;
+    };
+    EXPECT_EQ(trials_with(default_memory_limit), 8);
+    EXPECT_LT(trials_with(200'000), 8);
+    try {
+        trials_with(1000);
+        FAIL() << "it found memory";
+    } catch (const Failure& failure) {
+        const std::string text = failure.what();
+        EXPECT_TRUE(text.starts_with("plan:gradient takes ")) << text;
+        EXPECT_TRUE(text.ends_with(" with one plan, which is more than 1000 bytes")) << text;
+    }
+}
+
 // Bools share what max-nondef-actions allows.
 TEST(ActionParameters, AreProjected) {
     const ActionParameters parameters(network(), solvers::action_space(network()));
@@ -100,6 +165,26 @@ TEST(ActionParameters, AreProjected) {
     std::vector<float> values(all.size());
     parameters.write(all, 0.0, values.data());
     EXPECT_EQ(std::ranges::count(values, 1.0f), network().problem->max_nondef_actions);
+}
+
+// Where two of three tanks may not change, the largest change is made.
+TEST(ActionParameters, NumbersCountAmongTheChanges) {
+    rddl_problem problem = *reservoir().problem;
+    problem.max_nondef_actions = 1;
+    rddl_simulator limited = reservoir();
+    limited.problem = &problem;
+    const solvers::ActionSpace space = solvers::action_space(reservoir());
+    const ActionParameters parameters(limited, space);
+    ASSERT_GE(parameters.count(), 3u);
+    std::vector<double> all = parameters.defaults();
+    for (std::size_t i = 0; i < all.size(); ++i) all[i] += i == 1 ? 0.6 : 0.3;
+    std::vector<float> values(all.size());
+    parameters.write(all, 0.5, values.data());
+    for (std::size_t i = 0; i < all.size(); ++i)
+        EXPECT_EQ(values[i] != space.defaults[i], i == 1) << i;
+    problem.max_nondef_actions = -1;
+    ActionParameters(limited, space).write(all, 0.5, values.data());
+    for (std::size_t i = 0; i < all.size(); ++i) EXPECT_NE(values[i], space.defaults[i]) << i;
 }
 
 }  // namespace

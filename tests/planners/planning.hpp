@@ -12,6 +12,7 @@
 #include "solvers/evaluation/episodes.hpp"
 #include "solvers/evaluation/summary.hpp"
 #include "support/failure.hpp"
+#include "support/memory.hpp"
 
 #include <algorithm>
 #include <map>
@@ -74,12 +75,14 @@ struct Played {
 
 inline Played run(const rddl_simulator& simulator, const std::string& planner,
                   std::int64_t episodes = 1, int threads = 1, std::uint64_t seed = 0,
-                  const solvers::DerivativesSource& derivatives = {}) {
+                  const solvers::DerivativesSource& derivatives = {},
+                  std::int64_t memory_limit = default_memory_limit) {
     Played plan;
     std::mutex mutex;
     PolicySettings settings = settings_of(simulator);
     settings.seed = seed;
     settings.derivatives = derivatives;
+    settings.memory_limit = memory_limit;
     settings.explain = [&](const Explanation& explanation) {
         const std::scoped_lock lock(mutex);
         plan.explanation.insert_or_assign({explanation.episode, explanation.step}, explanation);

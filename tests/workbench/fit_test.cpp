@@ -25,15 +25,17 @@ std::string domain_text(const std::string& noise) {
            "GAIN(wheel) : { non-fluent, real, default = 1.0 };\n"
            "DRAG : { non-fluent, real, default = 0.1 };\n"
            "UNUSED : { non-fluent, real, default = 2.0 };\n"
+           "TWIN : { non-fluent, real, default = 1.0 };\n"
+           "BIAS : { non-fluent, real, default = 300000000.0 };\n"
            "KIND : { non-fluent, int, default = 2 };\n"
            "speed : { state-fluent, real, default = 0.0 };\n"
            "push(wheel) : { action-fluent, real, default = 0.0 };\n"
            "};\n"
-           "cpfs { speed' = speed * exp[-DRAG * abs[speed]] + (sum_{?w : wheel} [GAIN(?w) * "
+           "cpfs { speed' = speed * exp[-DRAG * TWIN * abs[speed]] + (sum_{?w : wheel} [GAIN(?w) * "
            "push(?w)])" +
            noise +
            "; };\n"
-           "reward = -DRAG * speed * speed;\n"
+           "reward = -DRAG * TWIN * speed * speed + BIAS / 100000000;\n"
            "action-preconditions { forall_{?w : wheel} [push(?w) >= -1 ^ push(?w) <= 1]; };\n"
            "}\n";
 }
@@ -81,10 +83,11 @@ class FitTest : public ::testing::Test {
         run_episodes(
             *problem.simulator, options, [&](const std::string& lines) { trace << lines; }, false);
     }
-    Fit fit_to(const std::vector<std::string>& parameters) const {
+    Fit fit_to(const std::vector<std::string>& parameters, int iterations = 100) const {
         const LoadedProblem problem = load_problem(files("guess.rddl"), load_);
         FitOptions options;
         options.parameters = parameters;
+        options.iterations = iterations;
         options.traces = {folder_ / "steps.jsonl"};
         return fit(problem.files, load_, *problem.simulator, options);
     }
@@ -124,11 +127,33 @@ TEST_F(FitTest, SaysHowSureItIs) {
     }
 }
 
+TEST_F(FitTest, UnitsDoNotMatter) {
+    record(" + Normal(0, 0.01)");
+    write("guess.rddl", instance_text("BIAS = 100000000.0;"));
+    const Fit found = fit_to({"GAIN", "BIAS", "DRAG"});
+    ASSERT_EQ(found.parameters.size(), 4u);
+    EXPECT_TRUE(found.has_converged);
+    for (const FittedParameter& each : found.parameters) {
+        const double truth = each.name == "BIAS" ? 3e8 : each.name == "DRAG" ? 0.2 : 0.75;
+        if (each.name == "GAIN___w2") continue;
+        EXPECT_NEAR(each.value, truth, 0.05 * truth) << each.name;
+        EXPECT_GT(each.error, 0) << each.name;
+        EXPECT_LT(each.error, 0.05 * truth) << each.name;
+    }
+}
+
+TEST_F(FitTest, SaysThatIterationsEndedTheSearch) {
+    record("");
+    EXPECT_FALSE(fit_to({"GAIN", "DRAG"}, 1).has_converged);
+    EXPECT_TRUE(fit_to({"GAIN", "DRAG"}).has_converged);
+}
+
 TEST_F(FitTest, RefusesWhatCannotBeFitted) {
     record("");
     EXPECT_EQ(failure_of({"UNUSED"}), "no recorded step depends on 'UNUSED'");
     EXPECT_EQ(failure_of({"KIND"}), "'KIND' is a non-fluent of type int: only reals can be fitted");
     EXPECT_EQ(failure_of({"DRAGG"}), "there is no real non-fluent 'DRAGG'; did you mean 'DRAG'?");
+    EXPECT_EQ(failure_of({"DRAG", "TWIN"}), "the recorded steps do not tell the parameters apart");
     write("steps.jsonl", "");
     EXPECT_EQ(failure_of({"DRAG"}), "the traces hold no step whose next state they have");
 }

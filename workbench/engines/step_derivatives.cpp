@@ -42,6 +42,7 @@ class UnrolledDerivatives : public solvers::StepDerivatives {
 
     std::size_t state_count() const override { return problem_->step.state_count; }
     std::size_t action_count() const override { return problem_->step.action_count; }
+    std::int64_t bytes() const override { return evaluation_.bytes(); }
     bool can_be_relaxed() const override { return autodiff::can_be_relaxed(problem_->step); }
     void read_state(const std::byte* record, std::span<double> numbers) const override {
         for (std::size_t i = 0; i < numbers.size(); ++i)

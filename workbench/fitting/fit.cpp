@@ -211,7 +211,7 @@ class Residuals {
                                     : evaluation_.reward()[0];
     }
 
-    // Eight results at a time.
+    // Differentiates eight results at a time, one in each lane.
     void add_derivatives(Eigen::Index row, Matrix& derivatives) {
         for (std::size_t first = 0; first <= observed_.size(); first += autodiff::lanes) {
             evaluation_.clear_adjoints();
@@ -249,20 +249,28 @@ void require_influence(const Matrix& derivatives, const std::vector<FittedParame
                           "fit the others, or record steps where it matters");
 }
 
-// The inverse of the normal equations at the solution, times the variance of residuals.
+// The inverse of the normal equations at the solution, times the variance of residuals. Columns are
+// scaled to norm 1, so that units of parameters do not matter: with D P = Q R, the variances are
+// the squared norms of the rows of P R^-1.
 void set_errors(const Matrix& derivatives, const Vector& residuals, Fit& fit) {
-    const Matrix normal = derivatives.transpose() * derivatives;
-    const Eigen::FullPivLU<Matrix> solver(normal);
-    if (!solver.isInvertible())
+    require_influence(derivatives, fit.parameters);
+    const Vector norms = derivatives.colwise().norm();
+    const Matrix scaled = derivatives * norms.cwiseInverse().asDiagonal();
+    Eigen::ColPivHouseholderQR<Matrix> solver(scaled);
+    solver.setThreshold(1e-10);  // rounding of many rows is well below
+    const Eigen::Index count = scaled.cols();
+    if (solver.rank() < count)
         throw Failure("the recorded steps do not tell the parameters apart",
                       "fit fewer of them, or record other steps");
-    const Matrix inverse = solver.inverse();
-    const double freedom =
-        std::max<double>(1, static_cast<double>(residuals.size() - normal.rows()));
+    const Matrix inverse = solver.colsPermutation() * solver.matrixR()
+                                                          .topLeftCorner(count, count)
+                                                          .triangularView<Eigen::Upper>()
+                                                          .solve(Matrix::Identity(count, count));
+    const double freedom = std::max<double>(1, static_cast<double>(residuals.size() - count));
     for (std::size_t p = 0; p < fit.parameters.size(); ++p) {
         const auto place = static_cast<Eigen::Index>(p);
         fit.parameters[p].error =
-            std::sqrt(std::max(0.0, inverse(place, place)) * residuals.squaredNorm() / freedom);
+            inverse.row(place).norm() / norms[place] * residuals.norm() / std::sqrt(freedom);
     }
 }
 
@@ -290,14 +298,16 @@ void minimise(Residuals& all, Vector& parameters, int iterations, Fit& fit) {
                                tried_residuals.squaredNorm() < residuals.squaredNorm();
         if (!is_better) {
             damping *= 4;
-            if (damping > 1e12) break;
+            fit.has_converged = damping > 1e12;
+            if (fit.has_converged) break;
             continue;
         }
         const double gain = 1 - tried_residuals.squaredNorm() / residuals.squaredNorm();
         parameters = tried;
         all.compute(parameters, residuals, &derivatives);
         damping = std::max(damping / 8, 1e-15);
-        if (gain < 1e-12) break;
+        fit.has_converged = gain < 1e-12;
+        if (fit.has_converged) break;
     }
     fit.error_after = root_mean_square(residuals);
     set_errors(derivatives, residuals, fit);

@@ -30,6 +30,7 @@ struct Fit {
     std::int64_t steps = 0;
     double error_before = 0, error_after = 0;  // root of the mean squared, scaled residual
     int iterations = 0;
+    bool has_converged = false;  // else FitOptions::iterations ended the search
 };
 
 // Levenberg's and Marquardt's method (1944, 1963): real values of the next state and the reward, as

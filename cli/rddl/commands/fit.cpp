@@ -27,6 +27,8 @@ void print_fit(const Fit& found) {
               each.error);
     print("{} steps, {} iterations; error {:.4g}, before {:.4g}\n", found.steps, found.iterations,
           found.error_after, found.error_before);
+    if (!found.has_converged)
+        print("the search was ended by --iterations {}: more may fit better\n", found.iterations);
 }
 
 ExitStatus fit_problem(const FitCommandOptions& options) {

@@ -1,0 +1,75 @@
+// `rddl train plan`: a plan of the whole episode.
+#include "program.hpp"
+
+#include <sstream>
+#include <string>
+
+namespace rddlc::cli {
+namespace {
+
+using nlohmann::json;
+
+class TrainPlan : public Program {};
+
+// Each step earns -0.6^2 until the number is moved, in as many steps as --horizon says.
+TEST_F(TrainPlan, PlansTheStepsThatHorizonSays) {
+    write_file(folder_ / "p.rddl",
+               "domain d { pvariables { at : { state-fluent, real, default = 0.0 };\n"
+               "  move : { action-fluent, real, default = 0.0 }; };\n"
+               "  cpfs { at' = at + move; }; reward = -(at + move - 0.6) * (at + move - 0.6);\n"
+               "  action-preconditions { move >= -1; move <= 1; }; }\n"
+               "non-fluents n { domain = d; }\n"
+               "instance i { domain = d; non-fluents = n; horizon = 2; discount = 1.0; }\n");
+    const Outcome plan = run("train plan p.rddl --out plan.jsonl --iterations 100 --horizon 5" +
+                             std::string(interpreted));
+    ASSERT_EQ(plan.status, 0) << plan.err;
+    std::istringstream out(plan.out);
+    std::string line, noop, file;
+    double of_noop = 0, of_plan = 0;
+    std::getline(out, line);
+    ASSERT_TRUE(out >> noop >> of_noop >> file >> of_plan) << plan.out;
+    EXPECT_EQ(noop, "noop");
+    EXPECT_NEAR(of_noop, -5 * 0.36, 1e-5);
+    EXPECT_EQ(file, "plan.jsonl");
+    EXPECT_GT(of_plan, -0.05);
+    EXPECT_LE(of_plan, 0);
+    const std::string played = read_file(folder_ / "plan.jsonl");
+    std::istringstream trace(played);
+    int steps = 0;
+    while (std::getline(trace, line)) steps += json::parse(line).contains("action") ? 1 : 0;
+    EXPECT_EQ(steps, 5) << played;
+}
+
+// Where one of three reals may differ from its default, a plan moves one in each step.
+TEST_F(TrainPlan, KeepsToTheNumberOfChanges) {
+    write_file(
+        folder_ / "p.rddl",
+        "domain d { types { wheel : object; };\n"
+        "  pvariables { at(wheel) : { state-fluent, real, default = 0.0 };\n"
+        "    move(wheel) : { action-fluent, real, default = 0.0 }; };\n"
+        "  cpfs { at'(?w) = at(?w) + move(?w); };\n"
+        "  reward = -(sum_{?w : wheel} [(at(?w) - 1) * (at(?w) - 1)]);\n"
+        "  action-preconditions { forall_{?w : wheel} [move(?w) >= -1 ^ move(?w) <= 1]; }; }\n"
+        "non-fluents n { domain = d; objects { wheel : { w1, w2, w3 }; }; }\n"
+        "instance i { domain = d; non-fluents = n; max-nondef-actions = 1; horizon = 4;\n"
+        "  discount = 1.0; }\n");
+    const Outcome plan =
+        run("train plan p.rddl --out plan.jsonl --iterations 50" + std::string(interpreted));
+    EXPECT_EQ(plan.status, 0) << plan.out << plan.err;
+    std::istringstream trace(read_file(folder_ / "plan.jsonl"));
+    int steps = 0, moves = 0;
+    for (std::string line; std::getline(trace, line);) {
+        const json step = json::parse(line);
+        if (!step.contains("action")) continue;
+        ++steps;
+        int changed = 0;
+        for (const json& move : step["action"]) changed += move != 0.0 ? 1 : 0;
+        EXPECT_LE(changed, 1) << line;
+        moves += changed;
+    }
+    EXPECT_EQ(steps, 4);
+    EXPECT_GT(moves, 0);
+}
+
+}  // namespace
+}  // namespace rddlc::cli
