@@ -364,6 +364,8 @@ Options options_of(const Arguments& arguments) {
     options.render.format =
         arguments.format == "json" ? DiagnosticsFormat::Json : DiagnosticsFormat::Text;
     options.render.color = use_color(arguments.color);
+    if (arguments.list_passes && !arguments.inputs.empty())
+        throw usage(fmt::format("--passes takes no file, such as '{}'", arguments.inputs.front()));
     options.explanation = arguments.list_passes ? pipeline_text() : arguments.explanation;
     if (!options.explanation.empty()) return options;
     options.statistics = statistics_format(arguments.statistics);

@@ -300,11 +300,13 @@ class RDDLEnv(ProblemProperties, gymnasium.Env[Any, Any]):
         """Exact derivatives of a step by state and action, which changes nothing here.
 
         state: None: the present one; an `rddlc.State`, a dictionary of values, or an array.
-        action: a dictionary of values, or an array. seed: of what the step draws. Relaxed
-        derivatives, many steps at once and torch: `rddlc.gradients.Derivatives`.
+        action: a dictionary of values (others are defaults), or an array. seed: of what the step
+        draws. Relaxed derivatives, many steps at once and torch: `rddlc.gradients.Derivatives`.
         """
         if self._derivatives is None:
             self._derivatives = Derivatives(self.problem)
+        if action is None:
+            raise ArgumentError("the action is a dictionary or an array; {} is the default action")
         given = self.get_state() if state is None else state
         return self._derivatives.jacobian(given, action, seed=seed)
 

@@ -93,6 +93,12 @@ class Gradients(unittest.TestCase):
         with self.assertRaises(rddlc.ActionError):
             step.jacobian({}, {"nothing": 1})
 
+    def test_an_action_is_not_none(self) -> None:
+        env = rddlc.make(*RESERVOIR)
+        env.reset(seed=0)
+        with self.assertRaisesRegex(rddlc.ArgumentError, "{} is the default action"):
+            env.jacobian(None, None)
+
     def test_torch(self) -> None:
         step = Derivatives(rddlc.make(*CAR))
         states = np.zeros((3, len(step.state_names)))

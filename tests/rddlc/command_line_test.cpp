@@ -38,6 +38,7 @@ TEST_F(CommandLine, RefusesWhatItDoesNotKnow) {
         {"domain.rddl", "instance.rddl", "-Wall"},
         {"domain.rddl", "instance.rddl", "-MD"},
         {"domain.rddl", "instance.rddl", "--without=everything"},
+        {"--passes", "extra"},
         {"--explain", "E9999"},
         {"--explain", "nonsense"},
         {"--explain"},

@@ -6,12 +6,16 @@
 #include "support/failure.hpp"
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <map>
+#include <random>
 
 namespace rddlc::workbench {
 namespace {
@@ -24,6 +28,8 @@ std::string domain_text(const std::string& noise) {
            "pvariables {\n"
            "GAIN(wheel) : { non-fluent, real, default = 1.0 };\n"
            "DRAG : { non-fluent, real, default = 0.1 };\n"
+           "PRICE : { non-fluent, real, default = 0.3 };\n"
+           "CHANCE : { non-fluent, real, default = 0.5 };\n"
            "UNUSED : { non-fluent, real, default = 2.0 };\n"
            "TWIN : { non-fluent, real, default = 1.0 };\n"
            "BIAS : { non-fluent, real, default = 300000000.0 };\n"
@@ -35,7 +41,7 @@ std::string domain_text(const std::string& noise) {
            "push(?w)])" +
            noise +
            "; };\n"
-           "reward = -DRAG * TWIN * speed * speed + BIAS / 100000000;\n"
+           "reward = -DRAG * TWIN * speed * speed - PRICE * abs[speed] + BIAS / 100000000;\n"
            "action-preconditions { forall_{?w : wheel} [push(?w) >= -1 ^ push(?w) <= 1]; };\n"
            "}\n";
 }
@@ -83,11 +89,9 @@ class FitTest : public ::testing::Test {
         run_episodes(
             *problem.simulator, options, [&](const std::string& lines) { trace << lines; }, false);
     }
-    Fit fit_to(const std::vector<std::string>& parameters, int iterations = 100) const {
+    Fit fit_to(const std::vector<std::string>& parameters, FitOptions options = {}) const {
         const LoadedProblem problem = load_problem(files("guess.rddl"), load_);
-        FitOptions options;
         options.parameters = parameters;
-        options.iterations = iterations;
         options.traces = {folder_ / "steps.jsonl"};
         return fit(problem.files, load_, *problem.simulator, options);
     }
@@ -98,6 +102,32 @@ class FitTest : public ::testing::Test {
             return failure.what();
         }
         return "nothing";
+    }
+
+    // Lines of the trace without the header.
+    std::vector<nlohmann::json> lines() const {
+        std::ifstream trace(folder_ / "steps.jsonl");
+        std::vector<nlohmann::json> found;
+        for (std::string line; std::getline(trace, line);)
+            if (nlohmann::json each = nlohmann::json::parse(line); !each.contains("rddl_trace"))
+                found.push_back(std::move(each));
+        return found;
+    }
+    void write_lines(const std::vector<nlohmann::json>& all) const {
+        std::string text;
+        for (const nlohmann::json& line : all) text += line.dump() + "\n";
+        write("steps.jsonl", text);
+    }
+    // The failure, without the name of the file, once `change` was made to line 3.
+    std::string failure_with(const std::function<void(nlohmann::json&)>& change) const {
+        std::vector<nlohmann::json> all = lines();
+        const std::vector<nlohmann::json> before = all;
+        change(all[2]);
+        write_lines(all);
+        const std::string failure = failure_of({"GAIN"});
+        write_lines(before);
+        const std::size_t end = failure.find("steps.jsonl', ");
+        return end == std::string::npos ? failure : failure.substr(end + 14);
     }
 
     fs::path folder_;
@@ -144,7 +174,9 @@ TEST_F(FitTest, UnitsDoNotMatter) {
 
 TEST_F(FitTest, SaysThatIterationsEndedTheSearch) {
     record("");
-    EXPECT_FALSE(fit_to({"GAIN", "DRAG"}, 1).has_converged);
+    FitOptions once;
+    once.iterations = 1;
+    EXPECT_FALSE(fit_to({"GAIN", "DRAG"}, once).has_converged);
     EXPECT_TRUE(fit_to({"GAIN", "DRAG"}).has_converged);
 }
 
@@ -155,7 +187,90 @@ TEST_F(FitTest, RefusesWhatCannotBeFitted) {
     EXPECT_EQ(failure_of({"DRAGG"}), "there is no real non-fluent 'DRAGG'; did you mean 'DRAG'?");
     EXPECT_EQ(failure_of({"DRAG", "TWIN"}), "the recorded steps do not tell the parameters apart");
     write("steps.jsonl", "");
-    EXPECT_EQ(failure_of({"DRAG"}), "the traces hold no step whose next state they have");
+    EXPECT_EQ(failure_of({"DRAG"}), "the traces hold no step");
+}
+
+TEST_F(FitTest, TakesEachLineByItself) {
+    record("");
+    std::vector<nlohmann::json> all = lines(), some;
+    std::shuffle(all.begin(), all.end(), std::minstd_rand(1));
+    for (std::size_t i = 0; i < all.size(); i += 2) {
+        all[i].erase("episode");
+        all[i].erase("step");
+        some.push_back(all[i]);
+    }
+    write_lines(some);
+    const Fit found = fit_to({"GAIN", "DRAG"});
+    EXPECT_EQ(found.steps, 60);
+    EXPECT_NEAR(found.parameters[0].value, 0.75, 1e-8);
+    EXPECT_NEAR(found.parameters[1].value, 1.5, 1e-8);
+    EXPECT_NEAR(found.parameters[2].value, 0.2, 1e-8);
+}
+
+TEST_F(FitTest, LeavesOutRewardsThatAreMissing) {
+    record("");
+    std::vector<nlohmann::json> all = lines();
+    for (std::size_t i = 0; i < all.size(); i += 3) all[i].erase("reward");
+    write_lines(all);
+    EXPECT_NEAR(fit_to({"DRAG", "GAIN"}).parameters[0].value, 0.75, 1e-8);
+    EXPECT_EQ(failure_of({"PRICE"}), "nothing");
+    for (nlohmann::json& line : all) line.erase("reward");
+    write_lines(all);
+    EXPECT_EQ(failure_of({"DRAG", "GAIN"}), "nothing");
+    EXPECT_EQ(failure_of({"PRICE"}), "only rewards depend on 'PRICE', and the traces have none");
+}
+
+TEST_F(FitTest, RefusesLinesThatAreNoTransitions) {
+    record("");
+    const auto without = [&](const char* member) {
+        return failure_with([&](nlohmann::json& line) { line.erase(member); });
+    };
+    const auto with = [&](const char* member, const char* name, const nlohmann::json& value) {
+        return failure_with([&](nlohmann::json& line) { line[member][name] = value; });
+    };
+    EXPECT_EQ(without("state"), "line 3: the line has no 'state'");
+    EXPECT_EQ(without("action"), "line 3: the line has no 'action'");
+    EXPECT_EQ(without("next_state"), "line 3: the line has no 'next_state'");
+    EXPECT_EQ(failure_with([](nlohmann::json& line) { line["state"].erase("speed"); }),
+              "line 3: 'state' has no value of 'speed'");
+    EXPECT_EQ(with("state", "speed", "nan"),
+              "line 3: 'state': 'speed' is nan, and a fit takes finite values only");
+    EXPECT_EQ(with("next_state", "speed", "inf"),
+              "line 3: 'next_state': 'speed' is inf, and a fit takes finite values only");
+    EXPECT_EQ(with("action", "push___w1", 1.5),
+              "line 3: 'action': 'push___w1' is 1.5, outside of its bounds -1 and 1");
+    EXPECT_EQ(failure_with([](nlohmann::json& line) { line["reward"] = "nan"; }),
+              "line 3: 'reward' is nan, and a fit takes finite values only");
+}
+
+TEST_F(FitTest, SaysWhereDerivativesAreZero) {
+    record(" + (if (Bernoulli(CHANCE)) then 0.1 else 0.0)");
+    EXPECT_EQ(
+        failure_of({"CHANCE"}),
+        "derivatives by 'CHANCE' are 0: it acts only through comparisons, roundings, or draws "
+        "of bools and ints");
+}
+
+TEST_F(FitTest, EndsInTheMiddleOfAnIteration) {
+    record("");
+    int asked = 0;
+    FitOptions options;
+    options.stops = [&] {
+        return ++asked > 200;
+    };  // after 120 steps of the first evaluation
+    const Fit found = fit_to({"GAIN"}, options);
+    EXPECT_TRUE(found.interrupted);
+    EXPECT_LT(asked, 210);
+    EXPECT_EQ(found.iterations, 0);
+}
+
+TEST_F(FitTest, DrawsBySeed) {
+    record(" + Normal(0, 0.01)");
+    FitOptions other;
+    other.seed = 7;
+    const double value = fit_to({"GAIN"}).parameters[0].value;
+    EXPECT_EQ(value, fit_to({"GAIN"}).parameters[0].value);
+    EXPECT_NE(value, fit_to({"GAIN"}, other).parameters[0].value);
 }
 
 }  // namespace

@@ -2,10 +2,11 @@
 
 #include "autodiff/evaluation.hpp"
 #include "autodiff/number_layout.hpp"
+#include "fitting/influence.hpp"
 #include "fitting/open_parameters.hpp"
+#include "fitting/transitions.hpp"
 #include "formats/line_stream.hpp"
 #include "formats/trace.hpp"
-#include "formats/trace_steps.hpp"
 #include "problems/front_end.hpp"
 #include "support/failure.hpp"
 #include "support/files.hpp"
@@ -31,8 +32,15 @@ using Matrix = Eigen::MatrixXd;
 // A recorded step; numbers of the state without the parameters.
 struct RecordedStep {
     std::vector<double> state, action, next;
-    double reward;
+    std::optional<double> reward;
 };
+
+// Thrown in the middle of work once FitOptions::stops says so.
+struct Stopped {};
+
+void give_up_if_stopped(const std::function<bool()>& stops) {
+    if (stops && stops()) throw Stopped();
+}
 
 // Names of the numbers of a record, as autodiff::NumberLayout has them.
 struct NumberName {
@@ -75,30 +83,17 @@ class Data {
     void read(const std::filesystem::path& trace) {
         UsedFiles used;
         LineReader lines(trace.string(), used, longest_line(TraceFormat(*simulator_.problem)));
-        TraceSteps reader(simulator_, {}, trace.string());
-        std::optional<TraceStep> before;
-        const auto take = [&](std::optional<TraceStep> step) {
-            if (before && step) add(*before, *step);
-            before = std::move(step);
-        };
-        while (const std::optional<std::string> line = lines.next()) {
-            std::optional<TraceStep> step = reader.read(*line);
-            if (reader.is_over()) {
-                take(reader.has_last() ? reader.last() : std::nullopt);
-                before.reset();
-                reader.begin_next();
-                step = reader.read(*line);
-            }
-            if (step) take(std::move(step));
-        }
-        take(reader.has_last() ? reader.last() : std::nullopt);
+        TransitionReader reader(simulator_, trace.string());
+        while (const std::optional<std::string> line = lines.next())
+            if (const std::optional<Transition> step = reader.read(*line)) add(*step);
+        faulted += reader.faulted();
     }
 
     std::vector<RecordedStep> steps;
+    std::int64_t faulted = 0;  // steps that were left out
 
   private:
-    void add(const TraceStep& step, const TraceStep& next) {
-        if (step.action.empty()) return;
+    void add(const Transition& step) {
         const auto numbers = [](const autodiff::NumberLayout& layout,
                                 const std::vector<std::byte>& record) {
             std::vector<double> all;
@@ -107,7 +102,7 @@ class Data {
             return all;
         };
         steps.push_back({numbers(states_, step.state), numbers(actions_, step.action),
-                         numbers(states_, next.state), step.reward});
+                         numbers(states_, step.next), step.reward});
     }
 
     const rddl_simulator& simulator_;
@@ -117,11 +112,13 @@ class Data {
 // The residuals of all steps, and their derivatives by the parameters.
 class Residuals {
   public:
-    Residuals(const ir::Program& original, const ir::Program& open, bool is_stochastic, int draws,
-              std::vector<RecordedStep> steps)
+    Residuals(const ir::Program& original, const ir::Program& open, bool is_stochastic,
+              const FitOptions& options, std::vector<RecordedStep> steps)
         : step_(autodiff::unroll(open)),
           evaluation_(step_, {}),
-          draws_(is_stochastic ? draws : 1),
+          draws_(is_stochastic ? options.draws : 1),
+          seed_(options.seed),
+          stops_(options.stops),
           steps_(std::move(steps)) {
         std::map<NumberName, std::size_t> places;
         const auto before = names_of(original, ir::Storage::State);
@@ -141,7 +138,15 @@ class Residuals {
 
     std::size_t parameter_count() const { return parameters_.size(); }
     std::size_t parameter_number(std::size_t p) const { return parameters_[p]; }
-    std::size_t count() const { return steps_.size() * (observed_.size() + 1); }
+    // One for each observed number of each step, and one for each reward.
+    std::size_t count() const { return steps_.size() * observed_.size() + rewards(); }
+
+    // How what is compared depends on a parameter.
+    Influence influence(std::size_t p) const {
+        std::vector<autodiff::Slot> next;
+        for (const Place& place : observed_) next.push_back(step_.next[place.here]);
+        return influence_of(step_, step_.state_slot(parameters_[p]), next, rewards() > 0);
+    }
 
     // False where a step faults.
     bool compute(const Vector& parameters, Vector& residuals, Matrix* derivatives) {
@@ -150,7 +155,7 @@ class Residuals {
         Eigen::Index row = 0;
         for (std::size_t s = 0; s < steps_.size(); ++s) {
             if (!compute_step(s, parameters, row, residuals, derivatives)) return false;
-            row += static_cast<Eigen::Index>(observed_.size() + 1);
+            row += static_cast<Eigen::Index>(outputs_of(steps_[s]));
         }
         return residuals.allFinite();
     }
@@ -160,19 +165,30 @@ class Residuals {
         std::size_t here, there;  // a number of the open and of the original state
     };
 
+    // The observed numbers, then the reward if the step has one.
+    std::size_t outputs_of(const RecordedStep& step) const {
+        return observed_.size() + (step.reward ? 1 : 0);
+    }
     double observed(const RecordedStep& step, std::size_t o) const {
-        return o < observed_.size() ? step.next[observed_[o].there] : step.reward;
+        return o < observed_.size() ? step.next[observed_[o].there] : *step.reward;
+    }
+    std::size_t rewards() const {
+        return static_cast<std::size_t>(std::ranges::count_if(
+            steps_, [](const RecordedStep& step) { return step.reward.has_value(); }));
     }
 
     // Deviations of what is observed; what never changes has 1.
     void find_scales() {
         for (std::size_t o = 0; o <= observed_.size(); ++o) {
-            double sum = 0, squares = 0;
-            const auto n = static_cast<double>(steps_.size());
-            for (const RecordedStep& step : steps_) sum += observed(step, o);
+            double sum = 0, squares = 0, n = 0;
+            for (const RecordedStep& step : steps_) {
+                if (o >= outputs_of(step)) continue;
+                sum += observed(step, o);
+                ++n;
+            }
             for (const RecordedStep& step : steps_)
-                squares += std::pow(observed(step, o) - sum / n, 2);
-            const double deviation = std::sqrt(squares / n);
+                if (o < outputs_of(step)) squares += std::pow(observed(step, o) - sum / n, 2);
+            const double deviation = n > 0 ? std::sqrt(squares / n) : 0;
             scales_.push_back(deviation > 1e-12 ? deviation : 1);
         }
     }
@@ -186,18 +202,19 @@ class Residuals {
             evaluation_.state(parameters_[p]).fill(parameters[static_cast<Eigen::Index>(p)]);
         for (std::size_t i = 0; i < step.action.size(); ++i)
             evaluation_.action(i).fill(step.action[i]);
-        const auto outputs = static_cast<Eigen::Index>(observed_.size() + 1);
+        const auto outputs = static_cast<Eigen::Index>(outputs_of(step));
         residuals.segment(row, outputs).setZero();
         if (derivatives) derivatives->middleRows(row, outputs).setZero();
         // All lanes have the same draws, since each takes the derivatives of another result.
         for (int draw = 0; draw < draws_; ++draw) {
+            give_up_if_stopped(stops_);
             const std::vector<rddl::StreamKey> keys(
-                autodiff::lanes, rddl::stream_key(0, s, static_cast<std::uint64_t>(draw)));
+                autodiff::lanes, rddl::stream_key(seed_, s, static_cast<std::uint64_t>(draw)));
             evaluation_.forward(keys, 0);
             if (evaluation_.has_failed(0)) return false;
             for (Eigen::Index o = 0; o < outputs; ++o)
                 residuals[row + o] += result(static_cast<std::size_t>(o)) / draws_;
-            if (derivatives) add_derivatives(row, *derivatives);
+            if (derivatives) add_derivatives(row, outputs_of(step), *derivatives);
         }
         for (Eigen::Index o = 0; o < outputs; ++o)
             residuals[row + o] =
@@ -212,10 +229,10 @@ class Residuals {
     }
 
     // Differentiates eight results at a time, one in each lane.
-    void add_derivatives(Eigen::Index row, Matrix& derivatives) {
-        for (std::size_t first = 0; first <= observed_.size(); first += autodiff::lanes) {
+    void add_derivatives(Eigen::Index row, std::size_t outputs, Matrix& derivatives) {
+        for (std::size_t first = 0; first < outputs; first += autodiff::lanes) {
             evaluation_.clear_adjoints();
-            const std::size_t end = std::min(first + autodiff::lanes, observed_.size() + 1);
+            const std::size_t end = std::min(first + autodiff::lanes, outputs);
             for (std::size_t o = first; o < end; ++o) {
                 autodiff::Lane adjoint{};
                 adjoint[o - first] = 1 / scales_[o] / draws_;
@@ -235,18 +252,21 @@ class Residuals {
     autodiff::StraightLine step_;
     autodiff::Evaluation evaluation_;
     int draws_;
+    std::uint64_t seed_;  // of the draws
+    std::function<bool()> stops_;
     std::vector<RecordedStep> steps_;
     std::vector<std::size_t> parameters_;    // numbers of the open state
     std::vector<Place> numbers_, observed_;  // the others; the reals among them
     std::vector<double> scales_;             // of the observed ones, and of the reward
 };
 
-void require_influence(const Matrix& derivatives, const std::vector<FittedParameter>& parameters) {
+void require_influence(const Residuals& all, const Matrix& derivatives,
+                       const std::vector<FittedParameter>& parameters) {
     for (Eigen::Index p = 0; p < derivatives.cols(); ++p)
-        if (!(derivatives.col(p).norm() > 0))
-            throw Failure(fmt::format("no recorded step depends on '{}'",
-                                      parameters[static_cast<std::size_t>(p)].name),
-                          "fit the others, or record steps where it matters");
+        if (!(derivatives.col(p).norm() > 0)) {
+            const auto place = static_cast<std::size_t>(p);
+            refuse_without_influence(parameters[place].name, all.influence(place));
+        }
 }
 
 // The inverse of the normal equations at the solution, times the variance of residuals. Columns are
@@ -285,7 +305,7 @@ void minimise(Residuals& all, Vector& parameters, int iterations, Fit& fit) {
     if (!all.compute(parameters, residuals, &derivatives))
         throw Failure("a recorded step faults with the parameters as they are");
     fit.error_before = root_mean_square(residuals);
-    require_influence(derivatives, fit.parameters);
+    require_influence(all, derivatives, fit.parameters);
     double damping = 1e-3;
     for (; fit.iterations < iterations; ++fit.iterations) {
         const Matrix normal = derivatives.transpose() * derivatives;
@@ -321,13 +341,21 @@ Fit fit(const ProblemFiles& files, const LoadOptions& load, const rddl_simulator
     const ir::Program open = program_of(files, load, options.parameters);
     Data data(simulator, original);
     for (const std::filesystem::path& trace : options.traces) data.read(trace);
+    if (options.stops && options.stops()) {
+        // A reader of lines ends at an interrupt, so that the data are not complete.
+        Fit nothing;
+        nothing.interrupted = true;
+        return nothing;
+    }
     if (data.steps.empty())
-        throw Failure("the traces hold no step whose next state they have",
-                      "'rddl run --trace FILE' records some");
+        throw Failure("the traces hold no step", "'rddl run --trace FILE' records some");
     Fit result;
     result.steps = static_cast<std::int64_t>(data.steps.size());
-    Residuals residuals(original, open, simulator.problem->stochastic, options.draws,
+    result.faulted = data.faulted;
+    Residuals residuals(original, open, simulator.problem->stochastic, options,
                         std::move(data.steps));
+    if (residuals.count() == 0)
+        throw Failure("the traces hold nothing to compare: no real in next states, and no reward");
     const auto names = names_of(open, ir::Storage::State);
     Vector parameters(static_cast<Eigen::Index>(residuals.parameter_count()));
     for (std::size_t p = 0; p < residuals.parameter_count(); ++p) {
@@ -347,7 +375,11 @@ Fit fit(const ProblemFiles& files, const LoadOptions& load, const rddl_simulator
         }
         result.parameters.push_back({text, start, start, 0});
     }
-    minimise(residuals, parameters, options.iterations, result);
+    try {
+        minimise(residuals, parameters, options.iterations, result);
+    } catch (const Stopped&) {
+        result.interrupted = true;
+    }
     for (std::size_t p = 0; p < result.parameters.size(); ++p)
         result.parameters[p].value = parameters[static_cast<Eigen::Index>(p)];
     return result;

@@ -2,6 +2,7 @@
 
 #include "driver/version.hpp"
 #include "engines/faults.hpp"
+#include "support/failure.hpp"
 #include "support/json_text.hpp"
 #include "support/sha256.hpp"
 
@@ -55,6 +56,20 @@ std::size_t longest_values(const RecordLayout& layout) {
 }
 
 }  // namespace
+
+nlohmann::json object_of_trace_line(std::string_view line) {
+    nlohmann::json object;
+    try {
+        object = parse_json(line);
+    } catch (const RefusedJson& refused) {
+        if (!refused.byte) throw Failure(refused.what());
+        const bool is_cut = line.front() == '{' && line.back() != '}';
+        throw Failure(is_cut ? "the line is cut off in the middle: the trace is not complete"
+                             : "this is not JSON");
+    }
+    if (!object.is_object()) throw Failure("the line is not a JSON object");
+    return object;
+}
 
 std::optional<std::string> complaint_about_header(const nlohmann::json& header,
                                                   const rddl_problem& problem) {

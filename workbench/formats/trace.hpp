@@ -12,6 +12,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace rddlc::workbench {
@@ -25,6 +26,9 @@ struct TraceHeader {
     std::int64_t episodes = 0;
     std::int64_t horizon = 0;  // in force; 0: no horizon
 };
+
+// The object of a line of a trace. Throws a Failure without the place, which the caller adds.
+nlohmann::json object_of_trace_line(std::string_view line);
 
 // The reason why steps of a trace with this header cannot be made in the problem: another version
 // of the format, or another problem. Missing members of the header are accepted.

@@ -3,7 +3,6 @@
 #include "formats/records_json.hpp"
 #include "formats/trace.hpp"
 #include "support/failure.hpp"
-#include "support/json_text.hpp"
 #include "support/utf8.hpp"
 
 #include <fmt/format.h>
@@ -85,14 +84,10 @@ std::optional<TraceStep> TraceSteps::read(std::string_view line) {
     if (line.find_first_not_of(" \t\r") == std::string_view::npos) return std::nullopt;
     nlohmann::json object;
     try {
-        object = parse_json(line);
-    } catch (const RefusedJson& refused) {
-        if (!refused.byte) fail(refused.what());
-        const bool is_cut = line.front() == '{' && line.back() != '}';
-        fail(is_cut ? "the line is cut off in the middle: the trace is not complete"
-                    : "this is not JSON");
+        object = object_of_trace_line(line);
+    } catch (const Failure& refused) {
+        fail(refused.what());
     }
-    if (!object.is_object()) fail("the line is not a JSON object");
     if (!object.contains("rddl_trace")) return read_object(object);
     if (const auto complaint = complaint_about_header(object, problem_)) fail(*complaint);
     horizon_ = count_in(object, "horizon", horizon_);

@@ -83,12 +83,12 @@ Rollouts run_episodes(const rddl_simulator& simulator, const RolloutOptions& opt
 }
 
 Rollouts run_episodes(const rddl_simulator& simulator, const solvers::Policy& policy,
-                      const solvers::EpisodeOptions& options, const TraceSink& trace,
-                      bool progress) {
+                      const solvers::EpisodeOptions& options, const TraceSink& trace, bool progress,
+                      const solvers::Stops& stops) {
     const std::int64_t steps = solvers::steps_at_most(simulator, options);
     Progress bar("running", options.episodes * std::max<std::int64_t>(steps, 1), progress);
     solvers::Watch watch;
-    watch.stops = is_interrupted;
+    watch.stops = stops;
     watch.advance = [&](std::int64_t done) {
         bar.advance(done);
     };

@@ -4,6 +4,7 @@
 #include "learning/planned_policy.hpp"
 #include "rollouts/violations.hpp"
 #include "solvers/evaluation/episodes.hpp"
+#include "terminal/interrupt.hpp"
 
 #include <rddl/simulator.h>
 
@@ -43,9 +44,9 @@ using TraceSink = std::function<void(const std::string& lines)>;
 // Stops early, with what is finished, once is_interrupted(). `trace` may be empty.
 Rollouts run_episodes(const rddl_simulator& simulator, const RolloutOptions& options,
                       const TraceSink& trace, bool progress);
-// The same with any policy.
+// The same with any policy, and another question for whether to stop; an empty one never does.
 Rollouts run_episodes(const rddl_simulator& simulator, const solvers::Policy& policy,
-                      const solvers::EpisodeOptions& options, const TraceSink& trace,
-                      bool progress);
+                      const solvers::EpisodeOptions& options, const TraceSink& trace, bool progress,
+                      const solvers::Stops& stops = is_interrupted);
 
 }  // namespace rddlc::workbench

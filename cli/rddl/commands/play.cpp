@@ -72,10 +72,7 @@ class TaskFile {
     std::filesystem::path folder_;
 };
 
-LoadedProblem load_task(const SessionInit& session, const PlayCommandOptions& options) {
-    if (session.task.empty())
-        throw Failure("the server does not send the problem", "name its files: DOMAIN INSTANCE");
-    const TaskFile file(session.task);
+LoadedProblem load_task(const TaskFile& file, const PlayCommandOptions& options) {
     ProblemFiles files = options.problem.with_options({});
     files.name = "the server's problem";
     files.domain = file.path();
@@ -130,7 +127,14 @@ ExitStatus play(PlayCommandOptions options) {
     ServerConnection server(connect_to(options.host, options.port), options.patience,
                             is_interrupted);
     const SessionInit session = server.begin_session(options.problem_name, options.client);
-    if (!problem) problem = load_task(session, options);
+    std::optional<TaskFile> task;  // planners may read it again, for derivatives
+    if (!problem) {
+        if (session.task.empty())
+            throw Failure("the server does not send the problem",
+                          "name its files: DOMAIN INSTANCE");
+        task.emplace(session.task);
+        problem = load_task(*task, options);
+    }
     const rddl_simulator& simulator = *problem->simulator;
     require_sight(*simulator.problem, options.policy);
     options.planning.derivatives = problem->derivatives;

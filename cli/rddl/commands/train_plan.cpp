@@ -3,6 +3,7 @@
 #include "commands/options.hpp"
 #include "formats/line_stream.hpp"
 #include "formats/trace.hpp"
+#include "learning/learned_policy.hpp"
 #include "rollouts/evaluation.hpp"
 #include "rollouts/rollouts.hpp"
 #include "solvers/batches/batch.hpp"
@@ -12,8 +13,10 @@
 
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <memory>
 #include <optional>
+#include <sstream>
 
 namespace rddlc::cli {
 
@@ -38,20 +41,55 @@ std::string planner_of(const TrainPlanOptions& options, std::int64_t horizon) {
     return fmt::format("plan:gradient,{},horizon={},replan={}", budget, horizon, horizon);
 }
 
+// A signal ends the search in the first step, and the episode is then played to its end by the plan
+// that was found.
+solvers::Policy ending_search_by_signals(solvers::Policy policy) {
+    policy.start = [start = policy.start](std::int64_t environments) {
+        const solvers::Actor actor = start(environments);
+        give_up_if_interrupted("making the planner");
+        return [actor, stops = solvers::Stops(is_interrupted)](solvers::Decision& decision) {
+            decision.stops = decision.steps.front() == 0 ? &stops : nullptr;
+            actor(decision);
+        };
+    };
+    return policy;
+}
+
+// Counts what the lines of a trace show of a plan.
+struct PlanLines {
+    std::int64_t steps = 0;
+    std::int64_t active = 0;  // steps whose action is not the default
+
+    void count(const std::string& lines) {
+        std::istringstream stream(lines);
+        for (std::string line; std::getline(stream, line); ++steps)
+            if (line.find("\"action\":{}") == std::string::npos) ++active;
+    }
+};
+
 void report(const rddl_simulator& simulator, const TrainPlanOptions& options,
             const solvers::EpisodeOptions& given) {
     solvers::EpisodeOptions episodes = given;
     episodes.episodes = simulator.problem->stochastic ? options.episodes : 1;
+    episodes.preconditions = Preconditions::Warn;  // counted
     for (const std::string& policy : {std::string("noop"), options.out}) {
         if (is_interrupted()) return;
         const Evaluation found = evaluate(simulator, policy, episodes, false, true);
+        if (is_interrupted()) return;  // these are not all episodes
         print("{:<30} {:>14.6g}\n", policy, found.summary.undiscounted_return.mean);
+        if (found.summary.illegal_actions > 0)
+            tell("rddl: warning: {} of {} steps of '{}' violate preconditions\n",
+                 found.summary.illegal_actions, found.steps, policy);
     }
 }
 
 ExitStatus train_plan(const TrainPlanOptions& options) {
     if (options.out.empty())
         throw Failure("a plan needs a file: --out plan.jsonl", {}, usage_error);
+    if (std::filesystem::path(options.out).extension() != ".jsonl")
+        throw Failure(
+            fmt::format("the name of a plan ends with .jsonl, and '{}' does not", options.out),
+            "--policy takes a plan by this ending", usage_error);
     const LoadedProblem problem = load_problem(options.problem.files(), options.load);
     const rddl_simulator& simulator = *problem.simulator;
     const std::int64_t horizon = options.horizon.value_or(simulator.problem->horizon);
@@ -75,10 +113,27 @@ ExitStatus train_plan(const TrainPlanOptions& options) {
                              .horizon = horizon};
     LineWriter trace(options.out, problem.used);
     trace.write(trace_header_line(header, *simulator.problem));
-    run_episodes(
-        simulator, rollouts, [&](const std::string& lines) { trace.write(lines); }, false);
-    if (is_interrupted()) return interrupted_status();
+    give_up_if_interrupted("making the planner");
+    const solvers::Policy policy =
+        ending_search_by_signals(policy_named(simulator, rollouts.planner, false, options.seed,
+                                              rollouts.memory_limit, rollouts.planning));
+    PlanLines plan;
+    run_episodes(simulator, policy, rollouts,
+                 [&](const std::string& lines) {
+                     trace.write(lines);
+                     plan.count(lines);
+                 },
+                 false, {});
     trace.finish();
+    if (plan.active == 0)
+        tell(
+            "rddl: note: each action of the plan is the default: no better plan was found in this "
+            "time\n");
+    if (is_interrupted()) {
+        tell("rddl: interrupted; '{}' is the best plan so far, of {} steps\n", options.out,
+             plan.steps);
+        return interrupted_status();
+    }
     print("mean returns{}:\n", simulator.problem->stochastic
                                    ? fmt::format(" of {} episodes", options.episodes)
                                    : std::string());
