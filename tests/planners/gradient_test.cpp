@@ -99,12 +99,13 @@ TEST(Gradient, SaysWhatItNeeds) {
 }
 
 // The names and the actions of two decisions, of which searches end at once from `stopped` on.
-std::vector<std::pair<std::string, std::vector<std::byte>>> decide_twice(std::int64_t stopped,
+std::vector<std::pair<std::string, std::vector<std::byte>>> decide_twice(std::int64_t iterations,
+                                                                         std::int64_t stopped,
                                                                          std::int64_t replan) {
     const rddl_simulator& simulator = target();
     constexpr std::int64_t horizon = 10;
     GradientOptions options;
-    options.budget.iterations = 50;
+    options.budget.iterations = iterations;
     options.horizon = horizon;
     options.replan = replan;
     Gradient planner(
@@ -130,10 +131,11 @@ std::vector<std::pair<std::string, std::vector<std::byte>>> decide_twice(std::in
 }
 
 TEST(Gradient, WithoutAnAscentTheFormerPlanGoesOn) {
-    const auto searched = decide_twice(1, 1), planned = decide_twice(2, 2);
-    EXPECT_EQ(searched[0].first, "plan");
-    EXPECT_EQ(searched, planned);
-    for (const auto& [name, action] : decide_twice(0, 1)) EXPECT_EQ(name, "noop");
+    for (const std::int64_t iterations : {1, 2, 3, 5, 10, 50}) {
+        const auto searched = decide_twice(iterations, 1, 1);
+        EXPECT_EQ(searched, decide_twice(iterations, 2, 2)) << iterations;
+    }
+    for (const auto& [name, action] : decide_twice(50, 0, 1)) EXPECT_EQ(name, "noop");
 }
 
 TEST(Gradient, KeepsToTheMemoryLimit) {
