@@ -271,9 +271,8 @@ void require_influence(const Residuals& all, const Matrix& derivatives,
 
 // The inverse of the normal equations at the solution, times the variance of residuals. Columns are
 // scaled to norm 1, so that units of parameters do not matter: with D P = Q R, the variances are
-// the squared norms of the rows of P R^-1.
+// the squared norms of the rows of P R^-1. Each parameter has influence.
 void set_errors(const Matrix& derivatives, const Vector& residuals, Fit& fit) {
-    require_influence(derivatives, fit.parameters);
     const Vector norms = derivatives.colwise().norm();
     const Matrix scaled = derivatives * norms.cwiseInverse().asDiagonal();
     Eigen::ColPivHouseholderQR<Matrix> solver(scaled);
@@ -330,6 +329,7 @@ void minimise(Residuals& all, Vector& parameters, int iterations, Fit& fit) {
         if (fit.has_converged) break;
     }
     fit.error_after = root_mean_square(residuals);
+    require_influence(all, derivatives, fit.parameters);
     set_errors(derivatives, residuals, fit);
 }
 
