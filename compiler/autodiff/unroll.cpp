@@ -413,7 +413,7 @@ class Unroller {
             if (known_[term] && *known_[term] != neutral) return term;
         std::erase_if(terms, [&](Slot term) { return known_[term].has_value(); });
         std::ranges::sort(terms);
-        terms.erase(std::ranges::unique(terms).begin(), terms.end());
+        terms.erase(std::unique(terms.begin(), terms.end()), terms.end());
         if (terms.empty()) return constant(neutral);
         if (terms.size() == 1) return terms.front();
         return add_of(code, terms);

@@ -8,7 +8,7 @@ namespace rddlc::planners {
 
 namespace {
 
-constexpr std::size_t lanes = solvers::derivative_lanes;
+constexpr std::size_t group_size = solvers::derivative_lanes;
 
 }  // namespace
 
@@ -31,9 +31,9 @@ bool Ascent::improve(std::span<AscendingPlan* const> plans, std::span<const doub
     gradients_.assign(plans.size() * row, 0.0);
     values_.assign(plans.size(), 0.0);
     const std::size_t all = plans.size() * scenarios_;
-    for (std::size_t first = 0; first < all; first += lanes) {
+    for (std::size_t first = 0; first < all; first += group_size) {
         if (solvers::is_stopped(stops)) return false;
-        begin_group(first, std::min(lanes, all - first), seeds);
+        begin_group(first, std::min(group_size, all - first), seeds);
         const std::size_t steps = play(plans, state, steps_made, static_cast<std::size_t>(horizon));
         for (std::size_t k = 0; k < group_size_; ++k)
             values_[(first + k) / scenarios_] += returns_[k] / static_cast<double>(scenarios_);
@@ -50,13 +50,13 @@ void Ascent::begin_group(std::size_t first, std::size_t lane_count,
                          std::span<const std::uint64_t> seeds) {
     group_first_ = first;
     group_size_ = lane_count;
-    std::array<std::uint64_t, lanes> lane_seeds{};
+    std::array<std::uint64_t, group_size> lane_seeds{};
     for (std::size_t k = 0; k < lane_count; ++k) lane_seeds[k] = seeds[(first + k) % scenarios_];
     derivatives_.set_seeds(lane_seeds);
 }
 
 void Ascent::write_actions(std::span<AscendingPlan* const> plans, std::size_t step) {
-    for (std::size_t k = 0; k < lanes; ++k) {
+    for (std::size_t k = 0; k < group_size; ++k) {
         const std::size_t lane = group_first_ + std::min(k, group_size_ - 1);
         const double* const row =
             plans[lane / scenarios_]->parameters.data() + step * actions_.count();
@@ -83,7 +83,7 @@ std::size_t Ascent::play(std::span<AscendingPlan* const> plans, std::span<const 
         derivatives_.read_next(std::span(states_).subspan((t + 1) * count, count));
         const Lane reward = derivatives_.reward();
         bool any = false;
-        for (std::size_t k = 0; k < lanes; ++k) {
+        for (std::size_t k = 0; k < group_size; ++k) {
             if (derivatives_.has_failed(k) || !std::isfinite(reward[k])) alive[k] = 0;
             reward_weight_[t][k] = alive[k] * discount;
             if (alive[k] != 0) returns_[k] += discount * reward[k];

@@ -23,7 +23,7 @@ namespace {
 
 using namespace rddlc;
 
-// Of the first instances of its folders.
+// Problems of rddlrepository that are refused, by the first instance of each.
 constexpr int refused_of_repository = 1;
 
 std::vector<fs::path> instances_of(const fs::path& folder, bool takes_all) {
@@ -45,7 +45,7 @@ std::vector<fs::path> instances_of(const fs::path& folder, bool takes_all) {
     return found;
 }
 
-// What was found in all instances.
+// The sums over all instances.
 struct Findings {
     int checked = 0, refused = 0, wrong = 0;
     std::int64_t derivatives = 0;
