@@ -99,7 +99,7 @@ ir::Program run_passes(ir::Program program, const PassOptions& options,
                        std::vector<PassRun>& runs) {
     ProgramSize size = size_of(program);
     for (const Pass& pass : pipeline()) {
-        if (options.without.contains(pass.name)) continue;
+        if (options.without.contains(pass.name) && !pass.has(passes::always_runs)) continue;
         if (pass.has(passes::only_fast_math) && !options.fast_math) continue;
         PassRun run = run_pass(pass, program, size);
         size = run.after;

@@ -54,8 +54,9 @@ struct PassRun {
 };
 
 struct PassOptions {
-    std::set<std::string, std::less<>> without;  // names of passes that are left out
-    bool fast_math = false;                      // --fast-math
+    // Names of passes that are left out. Those whose results emit/ needs run in any case.
+    std::set<std::string, std::less<>> without;
+    bool fast_math = false;  // --fast-math
     // Called after each run of a pass with its result: first for the program for any values, then
     // for the one for moderate values (ir::Program::only_moderate).
     std::function<void(const PassRun&, const ir::Program&)> observe = {};

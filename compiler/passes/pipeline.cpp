@@ -250,7 +250,8 @@ constexpr Pass in_order[] = {
      choose_evaluation,
      "selects, draws, loads and roundings are evaluated in the cheapest way",
      {"evaluate_together"},
-     "loops over several objects load as suits them all; no pass below looks at expressions"},
+     "loops over several objects load as suits them all; no pass below looks at expressions",
+     always_runs},
 };
 
 // Whether each pass stands behind those that it names.

@@ -14,6 +14,7 @@ enum Trait : unsigned {
     only_fast_math = 1,
     leaves_out_zeros = 2,  // terms that are multiplied by zero, if they are finite
     may_find_more = 4,     // its results may hold more work of the same kind
+    always_runs = 8,       // also where it is to be left out, since emit/ needs its results
 };
 
 struct Pass {

@@ -25,6 +25,13 @@ TEST(Pipeline, SaysWhatEachPassDoesAndWhy) {
     for (const PassDescription& pass : all_passes()) EXPECT_FALSE(pass.because.empty());
 }
 
+TEST(Pipeline, RunsWhatEmittingNeedsInAnyCase) {
+    std::vector<PassRun> runs;
+    optimise(grounded(with_tables("1.0")), {.without = {"count_bits", "choose_evaluation"}}, &runs);
+    EXPECT_EQ(std::ranges::count(runs, "count_bits", &PassRun::name), 0);
+    EXPECT_EQ(std::ranges::count(runs, "choose_evaluation", &PassRun::name), 1);
+}
+
 TEST(Pipeline, KnowsWhetherAPassIsFinished) {
     const ir::Program program = grounded(with_tables("sum_{?o : obj} v(?o) * SAME(?o)"));
     EXPECT_FALSE(is_finished("fold_uniform_tables", program));
