@@ -7,7 +7,6 @@
 #include <nlohmann/json.hpp>
 
 #include <cmath>
-#include <cstring>
 #include <utility>
 
 namespace rddlc::workbench {
@@ -18,14 +17,8 @@ namespace {
 std::optional<double> number_of_entry(const RecordEntry& entry,
                                       const std::vector<std::byte>& record) {
     if (entry.objects || entry.fluent->scalar == RDDL_BOOL) return {};
-    if (entry.fluent->scalar == RDDL_INT) {
-        std::int64_t value;
-        std::memcpy(&value, record.data() + entry.offset, sizeof value);
-        return static_cast<double>(value);
-    }
-    double value;
-    std::memcpy(&value, record.data() + entry.offset, sizeof value);
-    return value;
+    if (entry.fluent->scalar == RDDL_REAL) return value_at<double>(record.data(), entry);
+    return static_cast<double>(value_at<std::int64_t>(record.data(), entry));
 }
 
 }  // namespace

@@ -34,13 +34,6 @@ std::string_view record_name(rddl_role role) {
 }
 
 template <class T>
-T load(const std::byte* record, std::size_t offset) {
-    T value;
-    std::memcpy(&value, record + offset, sizeof value);
-    return value;
-}
-
-template <class T>
 void store(std::byte* record, std::size_t offset, T value) {
     std::memcpy(record + offset, &value, sizeof value);
 }
@@ -51,7 +44,7 @@ bool same_bits(const RecordEntry& entry, const std::byte* a, const std::byte* b)
 
 bool equal_values(const RecordEntry& entry, const std::byte* a, const std::byte* b) {
     if (entry.fluent->scalar != RDDL_REAL) return same_bits(entry, a, b);
-    return load<double>(a, entry.offset) == load<double>(b, entry.offset);
+    return value_at<double>(a, entry) == value_at<double>(b, entry);
 }
 
 void write_int(std::string& out, std::int64_t value) {
@@ -142,15 +135,15 @@ std::size_t scalar_size(rddl_scalar scalar) {
 void write_value(std::string& out, const RecordEntry& entry, const std::byte* record) {
     switch (entry.fluent->scalar) {
         case RDDL_BOOL:
-            out += load<std::uint8_t>(record, entry.offset) ? "true" : "false";
+            out += value_at<std::uint8_t>(record, entry) ? "true" : "false";
             return;
         case RDDL_REAL:
-            write_real(out, load<double>(record, entry.offset));
+            write_real(out, value_at<double>(record, entry));
             return;
         case RDDL_INT:
             break;
     }
-    const auto value = load<std::int64_t>(record, entry.offset);
+    const auto value = value_at<std::int64_t>(record, entry);
     if (entry.objects && value >= 0 && value < entry.objects->object_count)
         write_string(out, entry.objects->objects[value]);
     else

@@ -11,6 +11,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -27,6 +28,14 @@ struct RecordEntry {
     std::size_t offset;        // bytes into the record
     const rddl_type* objects;  // of an object- or enumerated-valued fluent, else NULL
 };
+
+// The value of that entry: std::uint8_t for bools, std::int64_t for ints and objects, double.
+template <class Value>
+Value value_at(const std::byte* record, const RecordEntry& entry) {
+    Value value;
+    std::memcpy(&value, record + entry.offset, sizeof value);
+    return value;
+}
 
 class RecordLayout {
   public:

@@ -34,13 +34,6 @@ std::vector<std::string> arguments_of(const rddl_problem& problem, const rddl_fl
 }
 
 template <class Value>
-Value value_at(const std::byte* record, std::size_t offset) {
-    Value value;
-    std::memcpy(&value, record + offset, sizeof value);
-    return value;
-}
-
-template <class Value>
 void set_value(std::byte* record, std::size_t offset, Value value) {
     std::memcpy(record + offset, &value, sizeof value);
 }
@@ -48,15 +41,15 @@ void set_value(std::byte* record, std::size_t offset, Value value) {
 std::string text_of(const RecordEntry& entry, const std::byte* record) {
     switch (entry.fluent->scalar) {
         case RDDL_BOOL:
-            return value_at<std::uint8_t>(record, entry.offset) ? "true" : "false";
+            return value_at<std::uint8_t>(record, entry) ? "true" : "false";
         case RDDL_INT: {
-            const auto value = value_at<std::int64_t>(record, entry.offset);
+            const auto value = value_at<std::int64_t>(record, entry);
             return entry.objects ? object_text(*entry.objects, value) : std::to_string(value);
         }
         case RDDL_REAL:
             break;
     }
-    return java_real(value_at<double>(record, entry.offset));
+    return java_real(value_at<double>(record, entry));
 }
 
 [[noreturn]] void refuse_value(const RecordEntry& entry, const std::string& text,

@@ -15,9 +15,7 @@ namespace rddlc::workbench {
 namespace {
 
 double real_at(const Record& record, const RecordEntry& entry) {
-    double value;
-    std::memcpy(&value, record.data() + entry.offset, sizeof value);
-    return value;
+    return value_at<double>(record.data(), entry);
 }
 
 bool same_bytes(const RecordEntry& entry, const Record& a, const Record& b) {

@@ -22,13 +22,6 @@ using nlohmann::json;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 template <class T>
-T load(const Record& record, std::size_t offset) {
-    T value;
-    std::memcpy(&value, record.data() + offset, sizeof value);
-    return value;
-}
-
-template <class T>
 void store(Record& record, std::size_t offset, T value) {
     std::memcpy(record.data() + offset, &value, sizeof value);
 }
@@ -38,8 +31,8 @@ bool is_number(const RecordEntry& entry) {
 }
 
 double number_at(const Record& record, const RecordEntry& entry) {
-    if (entry.fluent->scalar == RDDL_REAL) return load<double>(record, entry.offset);
-    return static_cast<double>(load<std::int64_t>(record, entry.offset));
+    if (entry.fluent->scalar == RDDL_REAL) return value_at<double>(record.data(), entry);
+    return static_cast<double>(value_at<std::int64_t>(record.data(), entry));
 }
 
 // `refuse` throws.
