@@ -20,6 +20,19 @@ inline BatchHandle create_batch(const rddl_simulator& simulator,
     return batch;
 }
 
+// A batch of one environment, the one of that number. The horizon is as in rddl_batch_options: 0 is
+// that of the problem.
+inline BatchHandle create_environment(const rddl_simulator& simulator, std::int64_t number,
+                                      std::uint64_t seed, std::int64_t horizon = 0) {
+    rddl_batch_options options{};
+    options.environment_count = 1;
+    options.first_environment = number;
+    options.seed = seed;
+    options.thread_count = 1;
+    options.horizon = horizon;
+    return create_batch(simulator, options);
+}
+
 // Fails with the simulator's own sentence where it has refused a call: nothing has been done then.
 void require_done(const rddl_simulator& simulator, rddl_error error);
 

@@ -45,7 +45,8 @@ class Round {
           states_(states),
           stops_(options.stops),
           number_(number),
-          batch_(environment(simulator, number, options.seed)),
+          // It has no horizon: when a round ends is for the server to say.
+          batch_(solvers::create_environment(simulator, number, options.seed, RDDL_NO_HORIZON)),
           actor_(policy.start(1)) {}
 
     // The element that answers a turn.
@@ -68,18 +69,6 @@ class Round {
     }
 
   private:
-    // It has no horizon: when a round ends is for the server to say.
-    static solvers::BatchHandle environment(const rddl_simulator& simulator, std::int64_t number,
-                                            std::uint64_t seed) {
-        rddl_batch_options options{};
-        options.environment_count = 1;
-        options.first_environment = number;
-        options.seed = seed;
-        options.thread_count = 1;
-        options.horizon = RDDL_NO_HORIZON;
-        return solvers::create_batch(simulator, options);
-    }
-
     void take_state(const Element& turn, std::int64_t step) {
         std::vector<std::byte> state(states_.size());
         std::vector<std::uint8_t> seen(states_.count());

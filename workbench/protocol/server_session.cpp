@@ -104,12 +104,8 @@ std::string ServerSession::begin_round(const Element& message) {
     const Element* const executed = message.child("execute-policy");
     counts_ = !executed || executed->text != "no";
     const auto done = static_cast<std::int64_t>(returns_.size());
-    rddl_batch_options options{};
-    options.environment_count = 1;
-    options.first_environment = counts_ ? done : first_practice + practice_rounds_++;
-    options.seed = options_.seed;
-    options.thread_count = 1;
-    batch_ = solvers::create_batch(problem_.simulator, options);
+    const std::int64_t environment = counts_ ? done : first_practice + practice_rounds_++;
+    batch_ = solvers::create_environment(problem_.simulator, environment, options_.seed);
     turns_ = 0;
     reward_ = total_ = 0;
     discount_ = 1;

@@ -54,13 +54,7 @@ SteppedEpisode::SteppedEpisode(Simulator simulator, std::uint64_t seed, std::int
       moments_{present()} {}
 
 solvers::BatchHandle SteppedEpisode::beginning() const {
-    rddl_batch_options options{};
-    options.environment_count = 1;
-    options.first_environment = number_;
-    options.seed = seed_;
-    options.thread_count = 1;
-    options.horizon = horizon_;
-    return solvers::create_batch(*simulator_, options);
+    return solvers::create_environment(*simulator_, number_, seed_, horizon_);
 }
 
 Moment SteppedEpisode::present() const {
