@@ -1,6 +1,6 @@
 #include "planners/cem/cem.hpp"
 
-#include "planners/cem/mean_and_error.hpp"
+#include "planners/simulation/mean_and_error.hpp"
 
 #include <algorithm>
 #include <array>

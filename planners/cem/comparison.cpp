@@ -1,6 +1,6 @@
 // The end of a decision of plan:cem: the best plans are compared with new stream.
 #include "planners/cem/cem.hpp"
-#include "planners/cem/mean_and_error.hpp"
+#include "planners/simulation/mean_and_error.hpp"
 
 #include <algorithm>
 #include <cmath>

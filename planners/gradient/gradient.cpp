@@ -1,6 +1,6 @@
 #include "planners/gradient/gradient.hpp"
 
-#include "planners/cem/mean_and_error.hpp"
+#include "planners/simulation/mean_and_error.hpp"
 #include "support/failure.hpp"
 
 #include <algorithm>
