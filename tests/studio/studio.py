@@ -203,17 +203,22 @@ def shared_browser() -> Browser:
     return browser
 
 
+def folder_with_car(add_cleanup) -> Path:
+    """Returns a new folder with copies of CAR, which `add_cleanup` of a test removes."""
+    folder = tempfile.TemporaryDirectory()
+    add_cleanup(folder.cleanup)
+    for path in CAR:
+        (Path(folder.name) / path.name).write_text(path.read_text())
+    return Path(folder.name)
+
+
 class PageTest(unittest.TestCase):
     """One program for each class, with windows for each test. With RDDLC_SCREENSHOTS=FOLDER tests leave pictures of
     each view at five sizes there."""
 
     @classmethod
     def setUpClass(cls) -> None:
-        folder = tempfile.TemporaryDirectory()
-        cls.addClassCleanup(folder.cleanup)
-        cls.folder = Path(folder.name)
-        for path in CAR:
-            (cls.folder / path.name).write_text(path.read_text())
+        cls.folder = folder_with_car(cls.addClassCleanup)
         cls.program = Program("domain.rddl", "instance.rddl", "--engine=interpreter", folder=cls.folder)
         cls.addClassCleanup(cls.program.close)
         cls.browser = shared_browser()

@@ -14,6 +14,8 @@
 #include <filesystem>
 #include <string>
 #include <thread>
+#include <utility>
+#include <vector>
 
 namespace rddlc::studio {
 namespace {
@@ -51,6 +53,18 @@ class StudioTest : public testing::Test {
         const Reply reply = studio.answer(name, request.dump());
         EXPECT_EQ(reply.status, status) << name << ": " << reply.body;
         return json::parse(reply.body);
+    }
+    // Opens texts in the language server, by the names of their files.
+    json open_texts(const std::vector<std::pair<std::string, std::string>>& texts) {
+        json messages = json::array();
+        for (const auto& [name, text] : texts)
+            messages.push_back(
+                {{"jsonrpc", "2.0"},
+                 {"method", "textDocument/didOpen"},
+                 {"params",
+                  {{"textDocument",
+                    {{"uri", "studio:/" + name}, {"version", 1}, {"text", text}}}}}});
+        return ask("language", {{"messages", messages}});
     }
     json load(const std::string& domain = tanks_domain) {
         return ask("load", {{"player", "p"}, {"domain", domain}, {"instance", tanks_instance}});
@@ -93,21 +107,7 @@ TEST_F(StudioTest, OpensTheProblem) {
 TEST_F(StudioTest, FirstProblemHasNoDiagnostics) {
     const OpenedProblem first = first_problem();
     const json answer =
-        ask("language",
-            {{"messages",
-              json::array(
-                  {{{"jsonrpc", "2.0"},
-                    {"method", "textDocument/didOpen"},
-                    {"params",
-                     {{"textDocument",
-                       {{"uri", "studio:/domain.rddl"}, {"version", 1}, {"text", first.domain}}}}}},
-                   {{"jsonrpc", "2.0"},
-                    {"method", "textDocument/didOpen"},
-                    {"params",
-                     {{"textDocument",
-                       {{"uri", "studio:/instance.rddl"},
-                        {"version", 1},
-                        {"text", first.instance}}}}}}})}});
+        open_texts({{"domain.rddl", first.domain}, {"instance.rddl", first.instance}});
     ASSERT_EQ(answer["messages"].size(), 2u);
     for (const json& message : answer["messages"])
         EXPECT_EQ(message["params"]["diagnostics"], json::array()) << message;
@@ -116,15 +116,7 @@ TEST_F(StudioTest, FirstProblemHasNoDiagnostics) {
 TEST_F(StudioTest, DiagnosticsAreTheLanguageServers) {
     std::string broken = tanks_domain;
     broken.replace(broken.find("water(?t) - release"), 5, "watr");
-    const json answer =
-        ask("language",
-            {{"messages",
-              json::array(
-                  {{{"jsonrpc", "2.0"},
-                    {"method", "textDocument/didOpen"},
-                    {"params",
-                     {{"textDocument",
-                       {{"uri", "studio:/domain.rddl"}, {"version", 1}, {"text", broken}}}}}}})}});
+    const json answer = open_texts({{"domain.rddl", broken}});
     const json& diagnostic = answer["messages"][0]["params"]["diagnostics"][0];
     EXPECT_EQ(diagnostic["code"], "E0201");
     EXPECT_EQ(diagnostic["range"]["start"]["line"], 8);

@@ -150,7 +150,7 @@ class Page(PageTest):
         window.view("try")
         window.click("#run")
         self.assertIn("errors", window.text("#try-message"))
-        # What is wrong in the words of a user is shown as text.
+        # A message that quotes the words of a user shows them as text.
         window.edit(0, "reward = =", "reward =")
         window.wait("document.querySelector('#problems-title').textContent === 'No problems'")
         window.fill("#policy", "<img src=x onerror='window.hacked=1'>")

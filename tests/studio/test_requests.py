@@ -10,9 +10,7 @@ import time
 import unittest
 from pathlib import Path
 
-from studio import RDDL, ROOT, Program
-
-CAR = [ROOT / "examples/mountain_car" / name for name in ("domain.rddl", "instance.rddl")]
+from studio import CAR, RDDL, Program, folder_with_car
 
 
 class Requests(unittest.TestCase):
@@ -120,11 +118,7 @@ class Requests(unittest.TestCase):
 
 class Running(unittest.TestCase):
     def setUp(self) -> None:
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = Path(folder.name)
-        for path in CAR:
-            (self.folder / path.name).write_text(path.read_text())
+        self.folder = folder_with_car(self.addCleanup)
 
     def start(self, *words) -> Program:
         program = Program(*words, folder=self.folder)

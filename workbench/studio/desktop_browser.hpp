@@ -24,7 +24,7 @@ class DesktopBrowser {
     void forget_ended();
 
   private:
-    std::filesystem::path file_;  // empty: there is none
+    std::filesystem::path file_;  // empty if the browser was not opened
     std::optional<pid_t> opener_;
 };
 
