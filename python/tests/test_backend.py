@@ -64,6 +64,13 @@ class Backend(unittest.TestCase):
         agent = RandomAgent(ours.action_space, num_actions=ours.max_allowed_actions, seed=1)
         found = agent.evaluate(ours, episodes=2, seed=1)
         self.assertTrue(np.isfinite(found["mean"]))
+        for name in ("MountainCar_ippc2023", "HVAC_ippc2023", "MarsRover_ippc2023"):  # with reals
+            returns = []
+            for env in pair(name):
+                env.horizon = 5
+                agent = RandomAgent(env.action_space, num_actions=len(env.action_space), seed=1)
+                returns.append(agent.evaluate(env, episodes=2, seed=1)["mean"])
+            np.testing.assert_allclose(*returns, rtol=1e-9, err_msg=name)
         ours, _ = pair("MountainCar_ippc2023", enforce_action_constraints=True)
         ours.reset(seed=1)
         ours.step({"action": 0.5})
