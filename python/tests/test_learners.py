@@ -292,7 +292,7 @@ class Learners(unittest.TestCase):
             entropy=0.01, gradient_norm=0, target_kl=0.1, noise="sde", sde_steps=4, correlation=0.5,
             log_std=-1.0, squash=True, curiosity=False, hidden=(8, 8), activation="relu", stack=2,
             recurrent=0, segment=4, time_input="on", bootstrap=True, threads=1, seed=2**64 - 1,
-            memory_limit=2**30, preset="sb3",
+            memory_limit=2**30, preset="sb3", imitate="noop", imitate_episodes=1,
         ).learn(128)  # fmt: skip
         rddlc.CGP(
             problem, children=4, nodes=9, constants=0, levels_back=3, mutation="gene",
