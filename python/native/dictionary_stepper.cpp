@@ -10,13 +10,13 @@ namespace rddlc::python {
 
 namespace {
 
-// Python's calls of the three parts take longer than most steps do.
+// One call of Python, since calls of the three parts take longer than most steps do.
 class DictionaryStepper {
   public:
     DictionaryStepper(EnvPool& batch, DictionaryWriter& writer, DictionaryReader& reader)
         : batch_(batch), writer_(writer), reader_(reader) {}
 
-    // What env.step() returns; None, and nothing is done, for what the writer does not take.
+    // The result of env.step(); None, and nothing is done, for what the writer does not take.
     nb::object step(nb::handle action) {
         batch_.finish();
         if (!writer_.write(action)) return nb::none();
@@ -24,7 +24,7 @@ class DictionaryStepper {
         return result();
     }
 
-    // Of the last step.
+    // The result of the last step.
     nb::tuple result() {
         const auto& arrays = batch_.arrays();
         const std::uint8_t causes = arrays.causes[0];
