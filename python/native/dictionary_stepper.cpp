@@ -24,7 +24,7 @@ class DictionaryStepper {
         return result();
     }
 
-    // The result of the last step.
+  private:
     nb::tuple result() {
         const auto& arrays = batch_.arrays();
         const std::uint8_t causes = arrays.causes[0];
@@ -33,7 +33,6 @@ class DictionaryStepper {
                               (causes & ~RDDL_TERMINATED) != 0, nb::dict());
     }
 
-  private:
     EnvPool& batch_;
     DictionaryWriter& writer_;
     DictionaryReader& reader_;
@@ -47,8 +46,7 @@ void add_dictionary_stepper(nb::module_& module) {
         .def(nb::init<EnvPool&, DictionaryWriter&, DictionaryReader&>(), nb::arg("batch"),
              nb::arg("writer"), nb::arg("reader"), nb::keep_alive<1, 2>(), nb::keep_alive<1, 3>(),
              nb::keep_alive<1, 4>())
-        .def("step", &DictionaryStepper::step, nb::arg("action").none())
-        .def("result", &DictionaryStepper::result);
+        .def("step", &DictionaryStepper::step, nb::arg("action").none());
 }
 
 }  // namespace rddlc::python
