@@ -28,16 +28,11 @@ std::optional<double> number_at(const void* place, int type) {
     return std::nullopt;
 }
 
-// The number of a type of numpy's scalars; np.float64 is a float of Python's.
-int scalar_type_of(const PyTypeObject* type) {
-    if (type == &PyLongArrType_Type) return NPY_LONG;
-    if (type == &PyBoolArrType_Type) return NPY_BOOL;
-    if (type == &PyFloatArrType_Type) return NPY_FLOAT;
-    if (type == &PyIntArrType_Type) return NPY_INT;
-    if (type == &PyByteArrType_Type) return NPY_BYTE;
-    if (type == &PyUByteArrType_Type) return NPY_UBYTE;
-    if (type == &PyLongLongArrType_Type) return NPY_LONGLONG;
-    return NPY_NOTYPE;
+// The types of whole scalars; np.float64 is a float of Python's.
+bool is_whole_type(const PyTypeObject* type) {
+    return type == &PyLongArrType_Type || type == &PyIntArrType_Type ||
+           type == &PyByteArrType_Type || type == &PyUByteArrType_Type ||
+           type == &PyLongLongArrType_Type;
 }
 
 template <class T>
@@ -77,13 +72,13 @@ std::optional<double> numpy_number(PyObject* given) {
         if (PyArray_NDIM(array) != 0 || !PyArray_ISNOTSWAPPED(array)) return std::nullopt;
         return number_at(PyArray_DATA(array), PyArray_TYPE(array));
     }
-    const int type = scalar_type_of(Py_TYPE(given));
-    alignas(8) char place[8];
-    if (type != NPY_NOTYPE) {
-        PyArray_ScalarAsCtype(given, place);
-        return number_at(place, type);
-    }
-    return std::nullopt;
+    if (is_whole_type(Py_TYPE(given)))
+        return static_cast<double>(PyNumber_AsSsize_t(given, nullptr));
+    if (Py_TYPE(given) == &PyBoolArrType_Type) return PyObject_IsTrue(given);
+    if (Py_TYPE(given) != &PyFloatArrType_Type) return std::nullopt;
+    float value;
+    PyArray_ScalarAsCtype(given, &value);
+    return value;
 }
 
 double* double_in(PyObject* array) {

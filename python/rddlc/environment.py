@@ -218,7 +218,7 @@ class RDDLEnv(ProblemProperties, gymnasium.Env[Any, Any]):
             raise self._no_step()
         if self._enforces:
             check_preconditions(self.problem, self._batch, self._writer, action)
-        result = self._stepper.step(action) if self._stepper is not None else None
+        result: Any = None if self._stepper is None else self._stepper.step(action)
         if result is None:
             self._writer.step(action)
             result = self._result()
