@@ -16,6 +16,7 @@ import sys
 from pathlib import Path
 
 import command_pages
+import diagrams
 import python_pages
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -81,7 +82,7 @@ class Site:
             fence = line.strip().startswith("```")
             lines.append(line if inside or fence else LINK.sub(of, line))
             inside ^= fence
-        return "\n".join(lines) + "\n"
+        return diagrams.drawn("\n".join(lines) + "\n")
 
     def write_source(self, path: Path) -> None:
         name = str(path.relative_to(ROOT))

@@ -12,6 +12,7 @@ from pages import DIAGNOSTICS, ROOT
 
 sys.path.insert(0, str(ROOT / "scripts/site"))
 import command_pages  # noqa: E402
+import diagrams  # noqa: E402
 import make_pages  # noqa: E402
 import python_pages  # noqa: E402
 
@@ -74,6 +75,24 @@ class Pieces(unittest.TestCase):
         page = command_pages.page(command_pages.Command("rddl do", text))
         self.assertIn("| `--a N` | First words |\n| `--long-name VALUE,...` | Second |", page)
         self.assertIn("## Examples\n\n```console\nrddl do --a 3\n```", page)
+
+    def test_flowcharts_become_pictures(self):
+        text = "flowchart TD\n    a --> b\n    a --> c\n    b --> c\n"
+        picture = diagrams.drawn(f"Before\n\n```mermaid\n{text}```\n\nafter")
+        self.assertEqual(re.findall(r"<text[^>]*>(\w)</text>", picture), ["a", "b", "c"])
+        self.assertEqual(picture.count("marker-end"), 3)
+        self.assertNotIn("mermaid", picture)
+        rows = diagrams.graph_of(diagrams.edges_of(text))
+        diagrams.arrange(rows)
+        self.assertEqual([[node.label for node in row] for row in rows[:1]], [["a"]])
+        self.assertEqual(sorted(node.label for node in rows[1]), ["", "b"])  # the edge from a to c passes beside b
+        left, right = rows[1]
+        self.assertGreaterEqual(right.x - right.width / 2, left.x + left.width / 2)
+
+    def test_other_charts_are_refused(self):
+        for text in "flowchart LR\n    a --> b\n", "flowchart TD\n    a -->|x| b\n", "flowchart TD\n    a --> b\n    b --> a\n":
+            with self.assertRaises(ValueError):
+                diagrams.svg(text)
 
     def test_docstrings_list_their_options(self):
         self.assertEqual(python_pages.prose("A text.\n\nseed: the\n    seed"), ["A text.", "", "* `seed`: the", "    seed", ""])

@@ -1,8 +1,8 @@
 // Two policies with the same luck: episodes side by side, and the returns of many.
-import { ask, byId, followJob, guardedBy, make, shown } from "./server.js";
+import { ask, byId, followJob, guardedBy, make, say, shown } from "./server.js";
 import { Episode, Transport } from "./episode.js";
 import { texts } from "./problem.js";
-import { problemIsBroken, say, seedOf } from "./try.js";
+import { problemIsBroken, seedOf } from "./try.js";
 
 const sides = [new Episode("left", { title: "first" }), new Episode("right", { title: "second", color: "--second" })];
 const transport = new Transport(sides);
