@@ -107,9 +107,11 @@ std::vector<FilePtr> Workspace::open_files() const {
 Family Workspace::family_of(const FilePtr& file) const {
     const std::set<std::string_view> domains = domains_of(*file);
     std::vector<FilePtr> files;
-    for (const FilePtr& each : files_around(*file))
-        if (each->uri == file->uri || belongs_to(*each, domains)) files.push_back(each);
     Family family;
+    for (const FilePtr& each : files_around(*file)) {
+        if (each->uri == file->uri || belongs_to(*each, domains)) files.push_back(each);
+        if (each->outline.has(Meaning::Domain)) family.domains_around.push_back(each);
+    }
     for (const FilePtr& each : files) {
         const bool declares = std::ranges::any_of(each->outline.blocks, [&](const Block& block) {
             return block.kind == Meaning::Domain && domains.contains(block.name.text);

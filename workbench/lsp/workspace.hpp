@@ -32,6 +32,8 @@ using FilePtr = std::shared_ptr<const File>;
 struct Family {
     FilePtr domain;               // absent if it was not found
     std::vector<FilePtr> others;  // non-fluents, instances, policies; open ones first
+    // All that declare a domain, of this family or not: 'domain = ' may come to name each of them.
+    std::vector<FilePtr> domains_around;
 
     std::vector<FilePtr> all() const;
 };

@@ -182,6 +182,21 @@ std::optional<KnownOptimum> optimum_of(const ProblemFiles& files, const rddl_sim
     return KnownOptimum{solution.optimum.value};
 }
 
+// A file with a policy block has a problem of its own, which is loaded with it.
+Evaluation evaluate_one(const rddl_simulator& simulator, const ProblemFiles& files,
+                        const std::string& name, const EvaluationOptions& options) {
+    if (!is_block_file(name))
+        return evaluate(simulator, name, options.episodes, options.random, options.json,
+                        options.planning);
+    ProblemFiles own = files;
+    own.policy = name;
+    const LoadedProblem problem = load_problem(own, options.load);
+    Evaluation one = evaluate(*problem.simulator, "rddl", options.episodes, options.random,
+                              options.json, options.planning);
+    one.policy = name;
+    return one;
+}
+
 ExitStatus evaluate_all(const EvaluationOptions& options) {
     if (options.chart.any()) require_writable_chart(options.chart);
     ProblemFiles files = options.problem.files();
@@ -199,8 +214,7 @@ ExitStatus evaluate_all(const EvaluationOptions& options) {
     std::vector<Evaluation> all;
     for (const std::string& name : options.policies) {
         if (is_interrupted()) break;
-        all.push_back(evaluate(simulator, name, chosen.episodes, options.random, options.json,
-                               chosen.planning));
+        all.push_back(evaluate_one(simulator, files, name, chosen));
         explanations.write(name);
     }
     explanations.finish();
@@ -259,8 +273,9 @@ Command evaluate_command() {
         planner_help();
     add_problem_arguments(command, options->problem);
     add_option(command, "--policy", "POLICY",
-               "random, noop, rddl (the policy block), a policy file, the folder of a run, a trace "
-               "(.jsonl), whose episodes are played one after the other, or a planner (plan:NAME)",
+               "random, noop, rddl (the policy block of the problem), a file with a policy block "
+               "(.rddl), a policy file, the folder of a run, a trace (.jsonl), whose episodes are "
+               "played one after the other, or a planner (plan:NAME)",
                [options](const std::string& name) {
                    if (planners::is_planner(name)) planners::require_planner(name);
                    options->policies = {name};
@@ -287,8 +302,9 @@ Command compare_command() {
     add_problem_arguments(command, options->problem);
     add_list_option(
         command, "--policies", "POLICY,...",
-        "random, noop, rddl (the policy block), policy files, folders of runs, traces (.jsonl) "
-        "as plans, planners (plan:NAME,key=value,...)",
+        "random, noop, rddl (the policy block of the problem), files with policy blocks (.rddl), "
+        "policy files, folders of runs, traces (.jsonl) as plans, planners "
+        "(plan:NAME,key=value,...)",
         [options](const std::string& name) { add_policy(options->policies, name); })
         .suggestions = {"random", "noop", "rddl"};
     add_text_option(
