@@ -63,9 +63,9 @@ class Page(PageTest):
         window.evaluate("(() => { const quick = window.fetch; let count = 0; window.fetch = async (...words) => {"
                         "if (words[0] === '/api/language' && ++count === 1) await new Promise((go) => setTimeout(go, 700));"
                         "return quick(...words); }; })()")
-        window.edit(0, "FUEL-COST   :", "FUEL-COSTS  :")
+        window.edit(0, "FUEL-COST", "FUEL-COSTS")
         window.wait("document.querySelectorAll('#problems li.error').length")
-        window.edit(0, "FUEL-COSTS  :", "FUEL-COST   :")
+        window.edit(0, "FUEL-COSTS", "FUEL-COST")
         window.wait("document.querySelector('#problems-title').textContent === 'No problems'")
 
     def test_completes_and_explains(self):
