@@ -24,9 +24,10 @@ def tries(window) -> None:
     """A plan in the middle of an episode, beside the texts."""
     window.resize(1280, 900)
     window.view("try")
-    window.fill("#policy", "plan:cem,steps=2000")
+    window.fill("#policy", "plan:cem,steps=5000")
     window.click("#run")
-    window.wait("document.querySelector('#hand-episode output').textContent.endsWith('of 100')", 120)
+    window.wait("!document.querySelector('#halt').hidden")
+    window.wait("document.querySelector('#halt').hidden", 300)
     window.evaluate("(() => { const slider = document.querySelector('#hand-episode input[type=range]');"
                     "slider.value = 40; slider.dispatchEvent(new Event('input')); })()")
     window.wait("document.querySelector('#hand-episode img').dataset.step === '40'")
@@ -34,20 +35,20 @@ def tries(window) -> None:
 
 def errs(window) -> None:
     """A mistake, where it is, with its repair."""
-    window.resize(860, 760)
+    window.resize(860, 810)
     window.edit(0, "max[0.0, min[CAPACITY,", "max[0.0, min[CAPACTY,")
-    window.wait("document.querySelector('#problems .fix:not([hidden])')")
+    window.wait("!!document.querySelector('#problems .fix:not([hidden])')")
     window.evaluate("document.querySelector('#problems .place').click()")
 
 
 def compares(window) -> None:
     """Two policies with the same luck."""
-    window.resize(860, 900)
+    window.resize(860, 950)
     window.view("compare")
     window.fill("#second", "plan:cem,steps=500")
     window.fill("#episodes", "20")
     window.click("#evaluate")
-    window.wait("document.querySelector('#verdict')", 300)
+    window.wait("!!document.querySelector('#verdict')", 300)
     window.click("#beside")
     window.wait("document.querySelector('#both output')?.textContent.endsWith('of 40')", 120)
     window.evaluate("document.querySelector('#both [aria-label=\"Last step\"]').click()")
@@ -56,7 +57,7 @@ def compares(window) -> None:
 
 def learns(window) -> None:
     """The curve of a learner, on a narrow screen."""
-    window.resize(360, 640)
+    window.resize(360, 740)
     window.view("train")
     window.fill("#learner", "cgp")
     window.fill("#options", "gens=40")
@@ -66,10 +67,10 @@ def learns(window) -> None:
 
 # A name, the words of `rddl studio`, and what is done on its page.
 SHOTS: dict[str, tuple[list[str], Callable]] = {
-    "try": (["{root}/examples/reservoir", "1"], tries),
+    "try": (["examples/reservoir", "1"], tries),
     "error": ([], errs),
     "compare": ([], compares),
-    "train": (["{root}/examples/mountain_car", "1"], learns),
+    "train": (["examples/mountain_car", "1"], learns),
 }
 
 
@@ -95,7 +96,8 @@ def main() -> int:
     for name in options.names:
         words, act = SHOTS[name]
         with tempfile.TemporaryDirectory() as folder:
-            program = Program(*(word.format(root=ROOT) for word in words), folder=folder)
+            Path(folder, "examples").symlink_to(ROOT / "examples")
+            program = Program(*words, folder=folder)
             window = Window(shared_browser(), program.address)
             act(window)
             write(window, PICTURES / f"{name}.png")
