@@ -74,6 +74,16 @@ class Diagnostics(Test):
         self.assertEqual(by_code["E0203"]["severity"], 1)
         self.assertEqual(client.checked("instance.rddl"), [])
 
+    def test_instance_of_a_domain_that_was_renamed(self):
+        client = self.opened(domain=DOMAIN.replace("domain fire", "domain forest"))
+        (note,) = client.checked("instance.rddl")
+        self.assertIn("no file here declares the domain 'fire'", note["message"])
+        (fix,) = [each for each in client.actions("instance.rddl", note["range"]) if each["kind"] == "quickfix"]
+        self.assertEqual(fix["title"], "Replace 'fire' by 'forest'")
+        client.apply(fix["edit"])
+        self.assertEqual(client.texts["instance.rddl"], INSTANCE.replace("domain = fire", "domain = forest"))
+        self.assertEqual(client.checked("instance.rddl"), [])
+
     def test_a_problem_in_one_file(self):
         client = self.client()
         client.open("both.rddl", DOMAIN + INSTANCE)

@@ -68,6 +68,20 @@ class Page(PageTest):
         window.edit(0, "FUEL-COSTS", "FUEL-COST")
         window.wait("document.querySelector('#problems-title').textContent === 'No problems'")
 
+    def test_renamed_domain(self):
+        """Both texts are one problem, whatever names they give."""
+        window = self.open()
+        window.edit(0, "domain mountain_car {", "domain hill {")
+        window.wait("document.querySelectorAll('#problems li.warning .fix:not([hidden])').length === 2")
+        self.assertIn("[W0205]", window.text("#problems li"))
+        window.edit(0, "reward =", "reward = =")
+        window.wait("document.querySelectorAll('#problems li.error').length")
+        window.view("try")
+        window.click("#run")
+        self.assertIn("errors", window.text("#try-message"))
+        window.edit(0, "reward = =", "reward =")
+        self.assertEqual(window.text("#try-message"), "")
+
     def test_completes_and_explains(self):
         window = self.open()
         window.edit(0, "reward = ", "reward = vel")

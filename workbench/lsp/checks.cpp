@@ -61,8 +61,10 @@ std::vector<CheckRequest::Problem> problems_of(const FilePtr& file, const Family
     const Outline& outline = file->outline;
     const bool is_policy = outline.has(Meaning::Policy) && !outline.has(Meaning::Domain) &&
                            !outline.has(Meaning::Instance);
+    const bool has_choice = !family.domain && family.domains_around.size() == 1;
     if (outline.has(Meaning::Instance) || outline.blocks.empty())
-        return {{inputs_with(family, file), nullptr, file}};
+        return {{inputs_with(family, file), nullptr, file,
+                 has_choice ? family.domains_around.front() : nullptr}};
     std::vector<CheckRequest::Problem> problems;
     for (const FilePtr& instance : instances_for(family, *file))
         problems.push_back({inputs_with(family, instance), is_policy ? file : nullptr, file});
@@ -94,7 +96,7 @@ class Checker {
         const Compilation compilation = compile(options);
         for (const Diagnostic& diagnostic : compilation.diagnostics.all())
             take(diagnostic, compilation.diagnostics.is_error(diagnostic), *problem.asked);
-        if (!knows_domain) tell_of_missing_domain(*problem.asked);
+        if (!knows_domain) tell_of_missing_domain(*problem.asked, problem.other_domain);
     }
 
     Checks result() && { return std::move(checks_); }
@@ -172,7 +174,7 @@ class Checker {
         return line.size() <= longest ? line : line.substr(0, longest) + "...";
     }
 
-    void tell_of_missing_domain(const File& file) {
+    void tell_of_missing_domain(const File& file, const FilePtr& other) {
         const auto& blocks = file.outline.blocks;
         const auto named =
             std::ranges::find_if(blocks, [](const Block& block) { return !block.domain.empty(); });
@@ -186,7 +188,26 @@ class Checker {
         json["source"] = "rddl";
         json["message"] = fmt::format(
             "no file here declares the domain '{}', so the syntax alone is checked", named->domain);
+        if (!other) return publish(file, std::move(json), nullptr);
+        const std::string_view name = domain_of(*other);
+        json["message"] =
+            fmt::format("{}\nhint: did you mean '{}'?", json["message"].get<std::string>(), name);
+        FileChecks& checks = checks_[file.uri];
+        const std::size_t count = checks.diagnostics.size();
         publish(file, std::move(json), nullptr);
+        if (checks.diagnostics.size() == count) return;
+        QuickFix fix{fmt::format("Replace '{}' by '{}'", named->domain, name), Json::object(),
+                     count};
+        for (const Occurrence& each : occurrences)
+            if (each.meaning == Meaning::Domain && each.name.text == named->domain)
+                fix.changes[file.uri].push_back(
+                    {{"range", file.text.range(each.name.place)}, {"newText", name}});
+        checks.fixes.push_back(std::move(fix));
+    }
+
+    static std::string_view domain_of(const File& file) {
+        const auto& blocks = file.outline.blocks;
+        return std::ranges::find(blocks, Meaning::Domain, &Block::kind)->name.text;
     }
 
     Standard standard_;

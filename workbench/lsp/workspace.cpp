@@ -109,12 +109,14 @@ Family Workspace::family_of(const FilePtr& file) const {
     std::vector<FilePtr> files;
     Family family;
     for (const FilePtr& each : files_around(*file)) {
-        if (each->uri == file->uri || belongs_to(*each, domains)) files.push_back(each);
+        const bool belongs = is_one_problem_ || belongs_to(*each, domains);
+        if (each->uri == file->uri || belongs) files.push_back(each);
         if (each->outline.has(Meaning::Domain)) family.domains_around.push_back(each);
     }
     for (const FilePtr& each : files) {
         const bool declares = std::ranges::any_of(each->outline.blocks, [&](const Block& block) {
-            return block.kind == Meaning::Domain && domains.contains(block.name.text);
+            const bool is_named = is_one_problem_ || domains.contains(block.name.text);
+            return block.kind == Meaning::Domain && is_named;
         });
         const bool is_better =
             declares && (!family.domain ||

@@ -40,6 +40,9 @@ struct Family {
 
 class Workspace {
   public:
+    // `is_one_problem`: the open files belong together, whatever names are in them.
+    explicit Workspace(bool is_one_problem = false) : is_one_problem_(is_one_problem) {}
+
     // The file that the editor has opened, or changed.
     void open(const std::string& uri, std::int64_t version, std::string text);
     // One of textDocument/didChange's changes; they may be of ranges or of the whole.
@@ -60,6 +63,7 @@ class Workspace {
         std::filesystem::file_time_type time;
         FilePtr file;  // null if it could not be read
     };
+    bool is_one_problem_;
     std::map<std::string, FilePtr> open_;
     mutable std::map<std::filesystem::path, OnDisk> on_disk_;
 };

@@ -81,7 +81,7 @@ Json planner_names() {
 
 Tab::Tab(std::shared_ptr<const TabContext> context)
     : context_(std::move(context)),
-      language_(context_->problem.files.standard),
+      language_(context_->problem.files.standard, true),
       saved_{context_->problem.domain, context_->problem.instance} {
     language_.handle({{"jsonrpc", "2.0"}, {"id", 0}, {"method", "initialize"}});
 }
