@@ -66,6 +66,11 @@ TEST_F(PolicyProgram, EvaluatesFilesSideBySide) {
     EXPECT_EQ(policies[1]["return"], policies[0]["return"]) << "it does nothing";
     EXPECT_EQ(policies[2]["return"], evaluated["policies"][0]["return"]);
 
+    write_file(folder_ / "greedy.rddl", "policy greedy { cpfs { pump(?t) = true; power = @high; "
+                                        "extra = 0.0; }; }");
+    expect_part(run(on_tanks("compare", "--policies noop,greedy.rddl" + settings)).err,
+                "faults ended 40 of 40 episodes of 'greedy.rddl'");
+
     write_file(folder_ / "wrong.rddl", "policy wrong { cpfs { pumps(?t) = true; }; }");
     const Outcome refused = run(on_tanks("compare", "--policies noop,wrong.rddl" + settings));
     EXPECT_EQ(refused.status, 1);

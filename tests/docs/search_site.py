@@ -25,7 +25,7 @@ from browser import Browser  # noqa: E402
 sys.path.insert(0, str(ROOT / "scripts/site"))
 import command_pages  # noqa: E402
 
-FIRST = 10  # results among which something counts as found
+FIRST = 3  # results among which something counts as found
 
 
 class Page(HTMLParser):
@@ -79,7 +79,7 @@ class Search:
         return value
 
     def results(self, words: str) -> list[dict]:
-        """Returns the places and texts of the first results."""
+        """Returns the places of the first results."""
         typed = ("(() => { const box = document.querySelector('.md-search__input'); box.value = %s;"
                  "for (const each of ['input', 'keyup']) box.dispatchEvent(new Event(each, {bubbles: true})); })()")
         self.browser.evaluate("document.querySelector('.md-search-result__list').replaceChildren()")
@@ -87,7 +87,7 @@ class Search:
         self.wait("document.querySelector('.md-search-result__list').children.length", 3)
         return self.browser.evaluate(
             "[...document.querySelectorAll('.md-search-result__list > li')].slice(0, %d).map((each) => ({"
-            "links: [...each.querySelectorAll('a')].map((one) => one.getAttribute('href')), text: each.textContent}))" % FIRST)
+            "links: [...each.querySelectorAll('a')].map((one) => one.getAttribute('href'))}))" % FIRST)
 
 
 def options_of(folder: Path) -> set[str]:
@@ -98,14 +98,12 @@ def options_of(folder: Path) -> set[str]:
 
 def not_found(search: Search, options: set[str]) -> list[str]:
     missing = []
-    for option in sorted(options):
-        if not any(option in each["text"] for each in search.results(option)):
-            missing.append(f"the search does not find {option}")
     codes = sorted(page.stem for page in DIAGNOSTICS.glob("*.md"))
-    for code in codes:
-        links = [link for each in search.results(code)[:3] for link in each["links"]]
-        if not any(f"diagnostics/{code}.html" in link for link in links):
-            missing.append(f"the search does not find {code}: {links}")
+    places = {option: f"commands/options.html#{option}" for option in options} | {code: f"diagnostics/{code}.html" for code in codes}
+    for words, place in sorted(places.items()):
+        links = [re.sub(r"\?[^#]*", "", link) for each in search.results(words) for link in each["links"]]
+        if not any(link.endswith(place) or f"{place}#" in link for link in links):
+            missing.append(f"the search does not find {words}: {links}")
     print(f"{len(options)} options, {len(codes)} diagnostics, {len(missing)} not found")
     return missing
 

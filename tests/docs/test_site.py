@@ -55,6 +55,12 @@ class Site(unittest.TestCase):
             for option in programs.options(program, command) - {"--version"}:
                 self.assertIn(option, page, f"{program} {command}")
 
+    def test_every_option_has_a_heading_in_their_index(self):
+        index = (self.pages / "commands/options.md").read_text()
+        self.assertIn("\n## --clip\n\n* [rddl train ppo](rddl-train-ppo.md): `--clip C` ", index)
+        for option in check_text.Programs(PROGRAMS).options("rddl", "run") - {"--version"}:
+            self.assertIn(f"\n## {option}\n", index)
+
     def test_every_diagnostic_is_listed(self):
         listed = (self.pages / "diagnostics/index.md").read_text()
         self.assertEqual([page.stem for page in DIAGNOSTICS.glob("*.md") if f"[{page.stem}]" not in listed], [])

@@ -243,7 +243,7 @@ TEST_F(StudioTest, ComparesTwoPolicyBlocks) {
     ask("compare", request);
     json status = finished_job("compare");
     ASSERT_EQ(status["state"], "done") << status;
-    // That of the texts raises it in 17 of 20 steps only.
+    // The block of the texts raises it in 17 of 20 steps only.
     EXPECT_NEAR(status["result"]["difference"]["mean"].get<double>(), 3, 1e-9);
     request["second"] = "noop";
     ask("compare", request);

@@ -19,7 +19,7 @@ struct ComparisonOptions {
 
 // The returns of both policies, and the mean difference (second minus first) of the episodes with
 // its 95 % confidence interval. Reports which policy is at work and which part is done.
-// `problems` are the same but for their policy blocks: each is loaded with that of its policy.
+// `problems` differ in their policy blocks alone: each is loaded with that of its policy.
 Json compare(Job& job, const std::array<workbench::LoadedProblem, 2>& problems,
              const ComparisonOptions& options);
 

@@ -152,6 +152,15 @@ void hint_at_chance(const Evaluation& one) {
             one.policy, number_text(*learned));
 }
 
+// Says where a return may be high only because episodes ended early.
+void note_faults(const Evaluation& one) {
+    const solvers::Summary& s = one.summary;
+    if (s.faulted > 0)
+        tell(
+            "rddl: note: faults ended {} of {} episodes of '{}', so its return is of fewer steps\n",
+            grouped(s.faulted), grouped(s.episodes), one.policy);
+}
+
 // The optimum of the horizon in which policies are evaluated.
 std::optional<KnownOptimum> optimum_of(const ProblemFiles& files, const rddl_simulator& simulator,
                                        const EvaluationOptions& options) {
@@ -221,6 +230,7 @@ ExitStatus evaluate_all(const EvaluationOptions& options) {
     options.json ? print_json(files, all, optimum, options)
                  : print_table(*simulator.problem, all, optimum, options);
     if (options.chart.any() && !all.empty()) draw(*simulator.problem, all, options);
+    for (const Evaluation& one : all) note_faults(one);
     for (const Evaluation& one : all)
         if (!options.random && !is_interrupted()) hint_at_chance(one);
     if (!is_interrupted()) return success;
