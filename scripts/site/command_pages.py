@@ -100,7 +100,7 @@ def options_page(all_commands: list[Command]) -> str:
             for name, text in entries(lines) if is_list(title, lines) else []:
                 for option in re.findall(r"--[\w-]+", name):
                     found.setdefault(option, []).append(f"* [{command.name}]({command.file}): `{name}` {escaped(text)}")
-    out = ["# All options", "", "Each option of the programs, with the commands that have it.", ""]
+    out = ["---", "search: {boost: 5}", "---", "# All options", "", "Each option of the programs, with the commands that have it.", ""]
     for option in sorted(found):
         out += [f"## {option}", "", *found[option], ""]
     return "\n".join(out)

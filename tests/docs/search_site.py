@@ -25,7 +25,7 @@ from browser import Browser  # noqa: E402
 sys.path.insert(0, str(ROOT / "scripts/site"))
 import command_pages  # noqa: E402
 
-FIRST = 3  # results among which something counts as found
+FIRST = 5  # results among which something counts as found
 
 
 class Page(HTMLParser):

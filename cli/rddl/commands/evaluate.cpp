@@ -282,14 +282,15 @@ Command evaluate_command() {
         "  rddl evaluate MountainCar_ippc2023 1 --policy plan:cem,seconds=0.1 --episodes 10\n\n" +
         planner_help();
     add_problem_arguments(command, options->problem);
-    add_option(command, "--policy", "POLICY",
-               "random, noop, rddl (the policy block of the problem), a file with a policy block "
-               "(.rddl), a policy file, the folder of a run, a trace (.jsonl), whose episodes are "
-               "played one after the other, or a planner (plan:NAME)",
-               [options](const std::string& name) {
-                   if (planners::is_planner(name)) planners::require_planner(name);
-                   options->policies = {name};
-               })
+    add_option(
+        command, "--policy", "POLICY",
+        "Policy: random, noop, rddl (the policy block of the problem), a file with a policy block "
+        "(.rddl), a policy file, the folder of a run, a trace (.jsonl), whose episodes are "
+        "played one after the other, or a planner (plan:NAME)",
+        [options](const std::string& name) {
+            if (planners::is_planner(name)) planners::require_planner(name);
+            options->policies = {name};
+        })
         .suggestions = {"random", "noop", "rddl"};
     add_common_options(command, *options);
     command.run = [options] {
@@ -310,12 +311,12 @@ Command compare_command() {
         "  rddl compare MountainCar_ippc2023 1 --policies noop,runs/ppo --png returns.png\n"
         "  rddl compare Elevators_MDP_ippc2011 1 --policies noop,plan:uct --optimum now";
     add_problem_arguments(command, options->problem);
-    add_list_option(
-        command, "--policies", "POLICY,...",
-        "random, noop, rddl (the policy block of the problem), files with policy blocks (.rddl), "
-        "policy files, folders of runs, traces (.jsonl) as plans, planners "
-        "(plan:NAME,key=value,...)",
-        [options](const std::string& name) { add_policy(options->policies, name); })
+    add_list_option(command, "--policies", "POLICY,...",
+                    "Policies: random, noop, rddl (the policy block of the problem), files with "
+                    "policy blocks (.rddl), "
+                    "policy files, folders of runs, traces (.jsonl) as plans, planners "
+                    "(plan:NAME,key=value,...)",
+                    [options](const std::string& name) { add_policy(options->policies, name); })
         .suggestions = {"random", "noop", "rddl"};
     add_text_option(
         command, "--optimum", "FILE.optimum",
