@@ -96,6 +96,13 @@ class Diagnostics(Test):
         (fix,) = [each for each in client.actions("domain.rddl", found["E0213"]["range"]) if each["kind"] == "quickfix"]
         client.apply(fix["edit"])
         self.assertEqual([each["code"] for each in client.checked("domain.rddl")], ["E0103"])
+        # The instance of a domain that is whole.
+        client.change("domain.rddl", DOMAIN)
+        client.open("instance.rddl", INSTANCE[:INSTANCE.index("horizon")])
+        self.assertEqual([each["code"] for each in client.checked("instance.rddl")], ["E0103"])
+        client.change("instance.rddl", INSTANCE[:INSTANCE.index("horizon")].replace("burning(north)", "burnt(north)"))
+        self.assertEqual(sorted(each["code"] for each in client.checked("instance.rddl")), ["E0103", "E0501"])
+        self.assertEqual(client.checked("domain.rddl"), [])
 
     def test_a_problem_in_one_file(self):
         client = self.client()

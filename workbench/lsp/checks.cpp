@@ -145,22 +145,24 @@ class Checker {
         }
     }
 
+    // The brackets that close sections and the block.
     static std::string missing_end(const File& file) {
         std::size_t open = 0;
         for (const format::Token& token : file.outline.tokens) {
             if (token.text == "{") ++open;
             if (token.text == "}" && open > 0) --open;
         }
+        if (open == 0) return "";
         std::string text = "\n";
-        while (open-- > 1) text += "};";
+        while (--open > 0) text += "};";
         return text + "}";
     }
 
     static bool may_still_come(Code code) {
         using namespace checking;
-        constexpr Code codes[] = {missing_block,     missing_section, type_without_objects,
-                                  missing_cpf,       missing_values,  unused_fluent,
-                                  unbalanced_bracket};
+        constexpr Code codes[] = {missing_block,     missing_section,   type_without_objects,
+                                  missing_cpf,       missing_values,    unused_fluent,
+                                  idle_action_limit, unbalanced_bracket};
         return std::ranges::find(codes, code) != std::end(codes);
     }
 
