@@ -4,9 +4,11 @@
 #include "ir/nest.hpp"
 #include "ir/reduction_nest.hpp"
 #include "ir/rewrite.hpp"
+#include "passes/analyses/bool_words.hpp"
 #include "passes/analyses/object_lanes.hpp"
 
 #include <algorithm>
+#include <cstdint>
 #include <map>
 #include <string>
 #include <utility>
@@ -117,25 +119,47 @@ class Separation {
     ir::NodeId with_terms(ir::NodeId value, ir::Block& before) {
         std::map<ir::NodeId, ir::NodeId> known;
         return ir::replace_in(builder_, value, known,
-                              [&](ir::NodeId id) { return sum_of_table(id, before); });
+                              [&](ir::NodeId id) { return over_table(id, before); });
     }
 
-    std::optional<ir::NodeId> sum_of_table(ir::NodeId id, ir::Block& before) {
+    std::optional<ir::NodeId> over_table(ir::NodeId id, ir::Block& before) {
         const bool is_branch = std::holds_alternative<ir::Select>(program_[id].form);
         if (is_branch) return id;  // what is in it is not always evaluated
         if (!std::holds_alternative<ir::Reduce>(program_[id].form)) return std::nullopt;
-        const auto sum = ir::reduction_nest(program_, id);
-        if (!sum || sum->op != Reduction::Sum || !is_worth_a_table(sum->variables, sum->body))
+        const auto nest = ir::reduction_nest(program_, id);
+        const bool is_quantifier = nest && program_[nest->body].type == ir::Scalar::Bool;
+        if (!nest || (nest->op != Reduction::Sum && !is_quantifier) ||
+            !is_worth_a_table(nest->variables, nest->body))
             return id;
+        if (is_quantifier) {
+            report_["quantifiers whose terms are computed before"] += 1;
+            return quantified(*nest, before);
+        }
         report_["sums whose terms are computed before"] += 1;
-        const ir::NodeId term = table_of(sum->body, "terms", sum->variables, before);
+        const ir::NodeId term = table_of(nest->body, "terms", nest->variables, before);
         std::get<ir::Loop>(before.back().form).several_at_once = true;
-        return ir::reduced(builder_, sum->op, sum->variables, term);
+        return ir::reduced(builder_, nest->op, nest->variables, term);
+    }
+
+    // All terms are true if none of their opposites is.
+    ir::NodeId quantified(const ir::ReductionNest& nest, ir::Block& before) {
+        const bool is_exists = nest.op == Reduction::Exists;
+        const ir::NodeId term = is_exists ? nest.body : builder_.apply(Operator::Not, {nest.body});
+        const ir::BufferId table = table_with(term, "terms", nest.variables, before);
+        std::get<ir::Loop>(before.back().form).several_at_once = true;
+        ir::NodeId any = builder_.constant(false);
+        for (std::int64_t first = 0; first < program_[table].count(); first += bools_in_a_word) {
+            const ir::NodeId bits = builder_.bits(table, first);
+            const ir::NodeId has_ones =
+                builder_.apply(Operator::NotEqual, {bits, builder_.constant(std::int64_t{0})});
+            any = builder_.apply(Operator::Or, {any, has_ones});
+        }
+        return is_exists ? any : builder_.apply(Operator::Not, {any});
     }
 
     bool is_worth_a_table(const Variables& variables, ir::NodeId term) const {
         const ir::Properties& properties = builder_.properties(term);
-        if (program_[term].type != ir::Scalar::Real || properties.may_fault || properties.random ||
+        if (program_[term].type == ir::Scalar::Int || properties.may_fault || properties.random ||
             properties.cost < worth_separating || !is_over(properties, variables))
             return false;
         const ObjectLanes several = several_of({variables, nullptr}, nullptr);
@@ -144,12 +168,22 @@ class Separation {
 
     // ------------------------------------------------------------------------------------ tables
 
-    // An element of a new table with the values of a node, which `before` fills.
+    // A new table with the values of a node, which `before` fills; an element of it.
+    ir::BufferId table_with(ir::NodeId id, const std::string& what, const Variables& variables,
+                            ir::Block& before) {
+        const ir::Scalar scalar = program_[id].type;
+        const ir::BufferId table = builder_.tables().scratch(
+            name_ + "-" + what, scalar,
+            scalar == ir::Scalar::Bool ? std::nullopt : builder_.properties(id).range, variables,
+            span_);
+        ir::fill_table(builder_, before, table, variables, id);
+        return table;
+    }
     ir::NodeId table_of(ir::NodeId id, const std::string& what, const Variables& variables,
                         ir::Block& before) {
-        const ir::BufferId table = builder_.tables().scratch(
-            name_ + "-" + what, program_[id].type, builder_.properties(id).range, variables, span_);
-        return ir::fill_table(builder_, before, table, variables, id);
+        std::vector<ir::NodeId> indices;
+        for (const ir::VariableId variable : variables) indices.push_back(builder_.index(variable));
+        return builder_.load(table_with(id, what, variables, before), std::move(indices));
     }
 
     ObjectLanes several_of(const ir::Nest& nest, std::function<bool(ir::NodeId)> is_element) const {
