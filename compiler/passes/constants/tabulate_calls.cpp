@@ -23,8 +23,8 @@ namespace {
 // A statement of the step outside of all loops, and what it does with tables.
 struct Step {
     const ir::Statement* statement;
-    std::set<ir::BufferId> reads, writes;
-    bool is_fixed;  // by the instance
+    std::set<ir::BufferId> reads, writes, passed;  // passed to functions
+    bool is_fixed;                                 // by the instance
 };
 
 class CallTabulation {
@@ -79,10 +79,10 @@ class CallTabulation {
     Step step_of(const ir::Statement& statement) const {
         ir::Block block;
         block.push_back(statement);
-        Step step{&statement, {}, ir::written_buffers(block), true};
+        Step step{&statement, {}, ir::written_buffers(block), {}, true};
         ir::for_each_statement<ir::Let>(block, [&](const ir::Let&) { step.is_fixed = false; });
         ir::for_each_statement<ir::Call>(block, [&](const ir::Call& call) {
-            for (const ir::TableView& input : call.inputs) step.reads.insert(input.buffer);
+            for (const ir::TableView& input : call.inputs) step.passed.insert(input.buffer);
             step.is_fixed &= !ir::is_external(call.callee) && !ir::is_draw(call.callee);
         });
         for (const ir::NodeId root : ir::roots_of(block)) {
@@ -111,6 +111,7 @@ class CallTabulation {
         bool some = false;
         for (Step& step : steps_) {
             const bool stays = std::ranges::all_of(step.reads, is_known) &&
+                               std::ranges::all_of(step.passed, is_known) &&
                                std::ranges::all_of(step.writes, is_known) &&
                                !is_passed_to_others(step);
             some |= step.is_fixed && !stays;
@@ -121,11 +122,9 @@ class CallTabulation {
     // Calls that stay need the table where it is.
     bool is_passed_to_others(const Step& filling) const {
         return std::ranges::any_of(steps_, [&](const Step& step) {
-            const auto* call = std::get_if<ir::Call>(&step.statement->form);
-            return call && !step.is_fixed &&
-                   std::ranges::any_of(call->inputs, [&](const ir::TableView& input) {
-                       return filling.writes.contains(input.buffer);
-                   });
+            return !step.is_fixed && std::ranges::any_of(step.passed, [&](ir::BufferId buffer) {
+                return filling.writes.contains(buffer);
+            });
         });
     }
 

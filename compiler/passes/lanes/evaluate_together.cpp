@@ -79,14 +79,15 @@ class Marking {
         const ObjectLanes several(
             program_, [&](ir::NodeId id) -> const ir::Properties& { return properties_[id.index]; },
             nest);
-        return several.are_enough() &&
-               std::ranges::all_of(*nest.body, [&](const ir::Statement& statement) {
-                   return match(
-                       statement.form,
-                       [&](const ir::Let& let) { return several.can_evaluate(let.value); },
-                       [&](const ir::Store& store) { return several.can_store(store); },
-                       [](const auto&) { return false; });
-               });
+        return std::ranges::all_of(*nest.body, [&](const ir::Statement& statement) {
+            return match(
+                statement.form, [&](const ir::Let& let) { return several.can_evaluate(let.value); },
+                [&](const ir::Store& store) {
+                    return several.are_enough(program_[store.target].scalar) &&
+                           several.can_store(store);
+                },
+                [](const auto&) { return false; });
+        });
     }
 
     const ir::Program& program_;

@@ -4,11 +4,9 @@
 #include "ir/nest.hpp"
 #include "ir/reduction_nest.hpp"
 #include "ir/rewrite.hpp"
-#include "passes/analyses/bool_words.hpp"
 #include "passes/analyses/object_lanes.hpp"
 
 #include <algorithm>
-#include <cstdint>
 #include <map>
 #include <string>
 #include <utility>
@@ -66,7 +64,9 @@ class Separation {
         const ObjectLanes several = several_of(nest, is_one);
         double rest = builder_.properties(store->value).cost;
         for (const ir::NodeId id : aggregations) rest -= builder_.properties(id).cost;
-        if (rest < worth_separating || !several.are_enough() || !several.can_store(*store)) return;
+        if (rest < worth_separating || !several.are_enough(program_[store->target].scalar) ||
+            !several.can_store(*store))
+            return;
 
         std::map<ir::NodeId, ir::NodeId> elements;
         for (const ir::NodeId id : aggregations)
@@ -131,30 +131,11 @@ class Separation {
         if (!nest || (nest->op != Reduction::Sum && !is_quantifier) ||
             !is_worth_a_table(nest->variables, nest->body))
             return id;
-        if (is_quantifier) {
-            report_["quantifiers whose terms are computed before"] += 1;
-            return quantified(*nest, before);
-        }
-        report_["sums whose terms are computed before"] += 1;
+        report_[is_quantifier ? "quantifiers whose terms are computed before"
+                              : "sums whose terms are computed before"] += 1;
         const ir::NodeId term = table_of(nest->body, "terms", nest->variables, before);
         std::get<ir::Loop>(before.back().form).several_at_once = true;
         return ir::reduced(builder_, nest->op, nest->variables, term);
-    }
-
-    // All terms are true if none of their opposites is.
-    ir::NodeId quantified(const ir::ReductionNest& nest, ir::Block& before) {
-        const bool is_exists = nest.op == Reduction::Exists;
-        const ir::NodeId term = is_exists ? nest.body : builder_.apply(Operator::Not, {nest.body});
-        const ir::BufferId table = table_with(term, "terms", nest.variables, before);
-        std::get<ir::Loop>(before.back().form).several_at_once = true;
-        ir::NodeId any = builder_.constant(false);
-        for (std::int64_t first = 0; first < program_[table].count(); first += bools_in_a_word) {
-            const ir::NodeId bits = builder_.bits(table, first);
-            const ir::NodeId has_ones =
-                builder_.apply(Operator::NotEqual, {bits, builder_.constant(std::int64_t{0})});
-            any = builder_.apply(Operator::Or, {any, has_ones});
-        }
-        return is_exists ? any : builder_.apply(Operator::Not, {any});
     }
 
     bool is_worth_a_table(const Variables& variables, ir::NodeId term) const {
@@ -163,27 +144,17 @@ class Separation {
             properties.cost < worth_separating || !is_over(properties, variables))
             return false;
         const ObjectLanes several = several_of({variables, nullptr}, nullptr);
-        return several.are_enough() && several.can_evaluate(term);
+        return several.are_enough(program_[term].type) && several.can_evaluate(term);
     }
 
     // ------------------------------------------------------------------------------------ tables
 
-    // A new table with the values of a node, which `before` fills; an element of it.
-    ir::BufferId table_with(ir::NodeId id, const std::string& what, const Variables& variables,
-                            ir::Block& before) {
-        const ir::Scalar scalar = program_[id].type;
-        const ir::BufferId table = builder_.tables().scratch(
-            name_ + "-" + what, scalar,
-            scalar == ir::Scalar::Bool ? std::nullopt : builder_.properties(id).range, variables,
-            span_);
-        ir::fill_table(builder_, before, table, variables, id);
-        return table;
-    }
+    // An element of a new table with the values of a node, which `before` fills.
     ir::NodeId table_of(ir::NodeId id, const std::string& what, const Variables& variables,
                         ir::Block& before) {
-        std::vector<ir::NodeId> indices;
-        for (const ir::VariableId variable : variables) indices.push_back(builder_.index(variable));
-        return builder_.load(table_with(id, what, variables, before), std::move(indices));
+        const ir::BufferId table = builder_.tables().scratch(
+            name_ + "-" + what, program_[id].type, builder_.properties(id).range, variables, span_);
+        return ir::fill_table(builder_, before, table, variables, id);
     }
 
     ObjectLanes several_of(const ir::Nest& nest, std::function<bool(ir::NodeId)> is_element) const {

@@ -15,12 +15,7 @@
 //                                                         reward-terms[t] = select(...)
 //                                                     sum[t in tank](reward-terms[t])
 //
-// So are the terms of an exists or forall, whose bools are then tested by words:
-//
-//     exists[w in wall](dx * Y[w] - dy * X[w] > 0)
-//                                                 =>  for w in wall
-//                                                         hit-terms[w] = dx * Y[w] - dy * X[w] > 0
-//                                                     bits(hit-terms, 0) != 0
+// So are the bools of an exists or forall.
 //
 // Nothing is computed more often than before, so aggregations in branches stay there, as do those
 // that may fault.

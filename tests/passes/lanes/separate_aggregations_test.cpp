@@ -76,8 +76,10 @@ TEST(SeparateAggregations, ComputesTheBoolsOfQuantifiersBeforeTheyAreTested) {
         return ir::print(program, program.reward.value);
     };
     const std::string term = "exp[depth(?x, ?y)] > COST(?x, ?y)";
-    EXPECT_EQ(tested("exists", term), "real(bits(scratch.reward-terms, 0) != 0)");
-    EXPECT_EQ(tested("forall", term), "real(bits(scratch.reward-terms, 0) == 0)");
+    EXPECT_EQ(tested("exists", term),
+              "real(exists[x in obj](exists[y in obj](scratch.reward-terms[x, y])))");
+    EXPECT_EQ(tested("forall", term),
+              "real(forall[x in obj](forall[y in obj](scratch.reward-terms[x, y])))");
     EXPECT_EQ(tested("exists", "depth(?x, ?y) > COST(?x, ?y)"),
               "real(exists[x in obj](exists[y in obj](state.depth[x, y] > COST[x, y])))");
 }
