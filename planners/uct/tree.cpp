@@ -143,9 +143,17 @@ void Tree::back_up(NodeId id, EdgeId edge_id, double reward, double rest) {
         }
         mean = edge.rewards / done + discount_ * after / count;
     }
-    const double weight = edge.estimates > 0 ? 1 : 0;
+    const double weight = edge.estimates > 0 ? 1 : 0, before = edge.value;
     edge.value = (weight * edge.estimate + done * mean) / (weight + done);
-    value_node(nodes_[id]);
+    Node& node = nodes_[id];
+    const auto place = static_cast<std::int32_t>(edge_id - node.first_edge);
+    const bool is_best = place == node.best;
+    if (node.best < 0 || (is_best && edge.value < before)) {
+        value_node(node);
+    } else if (is_best || edge.value > node.value) {
+        node.best = place;
+        node.value = edge.value;
+    }
 }
 
 void Tree::value_node(Node& node) {
@@ -153,7 +161,10 @@ void Tree::value_node(Node& node) {
     for (const Edge& edge : edges(node)) {
         const double weight = edge.done + (edge.estimates > 0 ? 1 : 0);
         if (weight == 0) continue;
-        best = std::max(best, edge.value);
+        if (backup_ == Backup::Max && (count == 0 || edge.value > best)) {
+            best = edge.value;
+            node.best = static_cast<std::int32_t>(id_of(edge) - node.first_edge);
+        }
         sum += weight * edge.value;
         count += weight;
     }

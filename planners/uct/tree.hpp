@@ -22,6 +22,9 @@ struct Node {
     std::int32_t draws = 0;  // that its value was found by, before it had edges with values
     std::int64_t step = 0;   // of the episode
     double value = 0;
+    std::int32_t best = -1;  // the edge, from 0, whose value is the node's; -1: no such edge
+    std::int32_t preferred =
+        -1;                  // the edge, from 0, of the action that a policy takes; -1: unknown
     bool is_open = false;    // its edges have values
     bool is_locked = false;  // whatever is done, the state and the reward stay: the value is exact
 };
