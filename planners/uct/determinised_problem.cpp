@@ -1,7 +1,5 @@
 #include "planners/uct/determinised_problem.hpp"
 
-#include "planners/uct/state_hash.hpp"
-
 #include <algorithm>
 #include <cmath>
 
@@ -22,19 +20,19 @@ void DeterminisedProblem::clear() {
 }
 
 std::size_t DeterminisedProblem::bytes() const {
-    return states_.size() * (sizeof(State) + state_size_ + 48) + moves_.size() * sizeof(Move) +
-           courses_.size() * sizeof(Course);
+    return states_.size() * (sizeof(State) + state_size_) + ids_.bytes() +
+           moves_.size() * sizeof(Move) + courses_.size() * sizeof(Course);
 }
 
 DeterminisedProblem::StateId DeterminisedProblem::state_of(const std::byte* its_record) {
-    const auto [found, is_new] =
-        ids_.try_emplace(hash_of(its_record, state_size_), static_cast<StateId>(states_.size()));
+    const auto [id, is_new] =
+        ids_.add(hash_of(its_record, state_size_), static_cast<StateId>(states_.size()));
     if (is_new) {
         states_.emplace_back();
         records_.insert(records_.end(), its_record, its_record + state_size_);
         courses_.resize(courses_.size() + static_cast<std::size_t>(depth_), {unknown, over});
     }
-    return found->second;
+    return id;
 }
 
 void DeterminisedProblem::set_depth(std::int64_t depth) {

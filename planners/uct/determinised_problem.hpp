@@ -4,13 +4,13 @@
 #pragma once
 
 #include "planners/simulation/budget.hpp"
+#include "planners/uct/state_hash.hpp"
 #include "planners/uct/typical_steps.hpp"
 
 #include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <span>
-#include <unordered_map>
 #include <vector>
 
 namespace rddlc::planners {
@@ -94,7 +94,7 @@ class DeterminisedProblem {
     std::vector<State> states_;
     std::vector<std::byte> records_;
     std::vector<Move> moves_;
-    std::unordered_map<std::uint64_t, StateId> ids_;
+    StateTable ids_;
     std::vector<Course> courses_;  // by state and steps 1 .. depth; nan: unknown
     std::uint32_t visit_ = 0;
     std::vector<StateId> front_, next_front_, closed_;

@@ -250,6 +250,8 @@ bool Uct::run_trials(const DecisionPoint& point, RandomStream& stream, BudgetMet
 // False: all have reached their leaves.
 bool Uct::step_trials(RandomStream& stream, std::int64_t step, BudgetMeter& meter) {
     std::int64_t moving = 0;
+    for (const Trial& trial : trials_)
+        if (!trial.is_down) tree().prefetch_edges(tree().node(trial.node));
     for (std::size_t k = 0; k < trials_.size(); ++k) {
         Trial& trial = trials_[k];
         const Node& node = tree().node(trial.node);
