@@ -31,7 +31,7 @@ double length_of(const Program& program, const Bounds& bounds, double size) {
 class BlockCost {
   public:
     BlockCost(const Program& program, const Block& body) : program_(program) {
-        collect_stores(body, 0);
+        collect_stores(body, outside);
         add(body, outside);
     }
     void add_value(NodeId id) { add(id, outside); }
@@ -50,14 +50,16 @@ class BlockCost {
     // The levels of the loops that a value depends on, as bits.
     using Levels = std::uint64_t;
 
-    // A table that is filled in loops is read inside of them, if it is read there.
-    void collect_stores(const Block& block, std::size_t level) {
+    // A table that is filled in loops changes for what reads it inside of them.
+    void collect_stores(const Block& block, Place place) {
         for (const Statement& statement : block) {
             match(
                 statement.form, [](const Let&) {},
-                [&](const Store& store) { stored_[store.target] = level; },
-                [&](const Loop& loop) { collect_stores(loop.body, level + 1); },
-                [&](const Call& call) { stored_[call.output.buffer] = level; });
+                [&](const Store& store) { stored_[store.target] = place; },
+                [&](const Loop& loop) {
+                    collect_stores(loop.body, inside(place, loop.variable, times_of(loop)));
+                },
+                [&](const Call& call) { stored_[call.output.buffer] = place; });
         }
     }
 
@@ -75,13 +77,15 @@ class BlockCost {
         pay(1, place);
     }
     void add(const Loop& loop, Place place) {
-        const double size = size_of(program_, loop.variable);
+        const double times = times_of(loop);
+        pay(times, place);
+        add(loop.body, inside(place, loop.variable, times));
+    }
+    double times_of(const Loop& loop) const {
         const double at_once = loop.as_words          ? bools_at_once
                                : loop.several_at_once ? objects_at_once
                                                       : 1;
-        const double times = std::ceil(size / at_once);
-        pay(times, place);
-        add(loop.body, inside(place, loop.variable, times));
+        return std::ceil(size_of(program_, loop.variable) / at_once);
     }
     // It reads its tables and fills its output.
     void add(const Call& call, Place place) {
@@ -133,8 +137,16 @@ class BlockCost {
         const auto buffer = buffer_read_by(node);
         const auto stored = buffer ? stored_.find(*buffer) : stored_.end();
         if (stored == stored_.end()) return 0;
-        const std::size_t common = std::min(stored->second, arounds_[place].level);
+        const std::size_t common = common_level(stored->second, place);
         return common == 0 ? 0 : bit_of(common);
+    }
+    // The level of the innermost loop around both places.
+    std::size_t common_level(Place a, Place b) const {
+        while (a != b) {
+            Place& inner = arounds_[a].level < arounds_[b].level ? b : a;
+            inner = arounds_[inner].outer;
+        }
+        return arounds_[a].level;
     }
     Levels level_of(VariableId variable, Place place) const {
         for (; place != outside; place = arounds_[place].outer)
@@ -166,7 +178,7 @@ class BlockCost {
     std::map<std::pair<NodeId, Place>, Levels> levels_;
     std::set<std::pair<NodeId, Place>> paid_;
     std::map<LocalId, Levels> levels_of_local_;
-    std::map<BufferId, std::size_t> stored_;  // the level of its stores
+    std::map<BufferId, Place> stored_;  // of its stores
     double total_ = 0;
 };
 
