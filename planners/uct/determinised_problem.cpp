@@ -1,7 +1,5 @@
 #include "planners/uct/determinised_problem.hpp"
 
-#include "planners/uct/state_hash.hpp"
-
 #include <algorithm>
 #include <cmath>
 
@@ -22,24 +20,24 @@ void DeterminisedProblem::clear() {
 }
 
 std::size_t DeterminisedProblem::bytes() const {
-    return states_.size() * (sizeof(State) + state_size_ + 48) + moves_.size() * sizeof(Move) +
-           courses_.size() * sizeof(Course);
+    return states_.size() * (sizeof(State) + state_size_) + ids_.bytes() +
+           moves_.size() * sizeof(Move) + courses_.size() * sizeof(Course);
 }
 
 DeterminisedProblem::StateId DeterminisedProblem::state_of(const std::byte* its_record) {
-    const auto [found, is_new] =
-        ids_.try_emplace(hash_of(its_record, state_size_), static_cast<StateId>(states_.size()));
+    const auto [id, is_new] =
+        ids_.add(hash_of(its_record, state_size_), static_cast<StateId>(states_.size()));
     if (is_new) {
         states_.emplace_back();
         records_.insert(records_.end(), its_record, its_record + state_size_);
-        courses_.resize(courses_.size() + static_cast<std::size_t>(depth_), {unknown, 0});
+        courses_.resize(courses_.size() + static_cast<std::size_t>(depth_), {unknown, over});
     }
-    return found->second;
+    return id;
 }
 
 void DeterminisedProblem::set_depth(std::int64_t depth) {
     depth_ = depth;
-    courses_.assign(states_.size() * static_cast<std::size_t>(depth), {unknown, 0});
+    courses_.assign(states_.size() * static_cast<std::size_t>(depth), {unknown, over});
 }
 
 void DeterminisedProblem::begin_visit(std::span<const StateId> states) {
@@ -131,17 +129,16 @@ bool DeterminisedProblem::is_known(StateId state, std::int64_t steps) const {
 }
 
 DeterminisedProblem::Course DeterminisedProblem::after(const Move& move, std::int64_t steps) {
-    if (steps == 1) return {move.reward, move.next == over ? 0 : move.reward};
-    if (move.next == over) return {move.reward, 0};
+    if (steps == 1 || move.next == over) return {move.reward, move.next};
     const Course rest = best(move.next, steps - 1);
-    return {move.reward + discount_ * rest.value, rest.last_reward};
+    return {move.reward + discount_ * rest.value, rest.end};
 }
 
 DeterminisedProblem::Course DeterminisedProblem::best(StateId state, std::int64_t steps) {
     const std::size_t place = static_cast<std::size_t>(state) * static_cast<std::size_t>(depth_) +
                               static_cast<std::size_t>(steps - 1);
     if (!std::isnan(courses_[place].value)) return courses_[place];
-    Course found{-std::numeric_limits<double>::infinity(), 0};
+    Course found{-std::numeric_limits<double>::infinity(), over};
     for (const Move& move : moves(state)) {
         const Course course = after(move, steps);
         if (course.value > found.value) found = course;

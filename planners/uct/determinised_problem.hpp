@@ -4,13 +4,13 @@
 #pragma once
 
 #include "planners/simulation/budget.hpp"
+#include "planners/uct/state_hash.hpp"
 #include "planners/uct/typical_steps.hpp"
 
 #include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <span>
-#include <unordered_map>
 #include <vector>
 
 namespace rddlc::planners {
@@ -23,10 +23,14 @@ class DeterminisedProblem {
         StateId next;
         double reward;
     };
-    // The best course of so many steps: the discounted sum of its rewards, and the last of them.
+    // The best course of so many steps: the discounted sum of its rewards, and the state where it
+    // ends.
     struct Course {
-        double value, last_reward;
+        double value;
+        StateId end;
     };
+    // Where episodes are over.
+    static constexpr StateId over = 0;
 
     DeterminisedProblem(std::size_t state_size, double discount)
         : state_size_(state_size), discount_(discount) {
@@ -47,6 +51,11 @@ class DeterminisedProblem {
     // Simulates what searches from these states ask for. False where the budget does not last.
     bool open(std::span<const StateId> states, TypicalSteps& steps, BudgetMeter& meter);
 
+    const std::byte* record(StateId state) const {
+        return records_.data() + static_cast<std::size_t>(state) * state_size_;
+    }
+    // The mean reward of steps after that state, as the caller has found it; nan at first.
+    double& later(StateId state) { return states_[state].later; }
     bool is_open(StateId state) const { return states_[state].is_open; }
     // The legal actions of an open state.
     std::span<const Move> moves(StateId state) const {
@@ -57,18 +66,21 @@ class DeterminisedProblem {
     Course after(const Move& move, std::int64_t steps);
     // Whether no draw of any action has changed the state, and all rewards were the same.
     bool stays(StateId state) const { return states_[state].stays; }
+    // Further draws have shown whether that is so.
+    void confirm(StateId state, bool stays) {
+        states_[state].stays = stays;
+        states_[state].is_confirmed = true;
+    }
+    bool is_confirmed(StateId state) const { return states_[state].is_confirmed; }
 
   private:
-    static constexpr StateId over = 0;
     struct State {
+        double later = std::numeric_limits<double>::quiet_NaN();
         std::uint32_t first_move = 0, move_count = 0;
         std::uint32_t visit = 0;  // of a search: the last one that has met it
-        bool is_open = false, stays = false;
+        bool is_open = false, stays = false, is_confirmed = false;
     };
 
-    const std::byte* record(StateId state) const {
-        return records_.data() + static_cast<std::size_t>(state) * state_size_;
-    }
     void begin_visit(std::span<const StateId> states);
     bool open_front(TypicalSteps& steps, BudgetMeter& meter);
     void take_moves(StateId state, std::size_t place, const TypicalSteps& steps);
@@ -82,7 +94,7 @@ class DeterminisedProblem {
     std::vector<State> states_;
     std::vector<std::byte> records_;
     std::vector<Move> moves_;
-    std::unordered_map<std::uint64_t, StateId> ids_;
+    StateTable ids_;
     std::vector<Course> courses_;  // by state and steps 1 .. depth; nan: unknown
     std::uint32_t visit_ = 0;
     std::vector<StateId> front_, next_front_, closed_;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <limits>
 
 namespace rddlc::planners {
 
@@ -12,13 +13,41 @@ namespace {
 
 // Draws of each action by which a state is known for one that nothing changes.
 constexpr std::size_t lock_draws = 64;
+// Steps and draws by which a policy values what comes after a lookahead.
+constexpr std::int64_t later_steps = 20;
+constexpr std::size_t later_draws = 4;
 
 }  // namespace
 
 bool Uct::value_new_nodes(const DecisionPoint& point, RandomStream& stream, BudgetMeter& meter,
                           std::size_t draws) {
-    return is_determinised() ? value_by_determinisation(point, stream, meter)
-                             : value_by_policy(point, stream, meter, draws);
+    const bool is_done = is_determinised() ? value_by_determinisation(point, stream, meter)
+                                           : value_by_policy(point, stream, meter, draws);
+    return is_done && (options_.policy.empty() || find_preferred(point, stream, meter));
+}
+
+bool Uct::find_preferred(const DecisionPoint& point, RandomStream& stream, BudgetMeter& meter) {
+    for (std::size_t first = 0; first < new_nodes_.size(); first += continuations_.lanes()) {
+        const std::size_t count = std::min(continuations_.lanes(), new_nodes_.size() - first);
+        starts_.clear();
+        for (std::size_t k = first; k < first + count; ++k)
+            starts_.push_back({tree().state(new_nodes_[k]), tree().node(new_nodes_[k]).step,
+                               nullptr, 1, stream.bits()});
+        if (!meter.has_room(static_cast<std::int64_t>(count), 0) ||
+            !continuations_.run(point, starts_, policies_[policy_], meter))
+            return false;
+        for (std::size_t k = 0; k < count; ++k) {
+            Node& node = tree().node(new_nodes_[first + k]);
+            const std::byte* const record = continuations_.first_action(k);
+            std::int32_t place = 0;
+            for (const Edge& edge : tree().edges(node)) {
+                if (std::equal(record, record + action_size_, actions_.record(edge.action)))
+                    node.preferred = place;
+                ++place;
+            }
+        }
+    }
+    return true;
 }
 
 bool Uct::value_by_determinisation(const DecisionPoint& point, RandomStream& stream,
@@ -28,6 +57,7 @@ bool Uct::value_by_determinisation(const DecisionPoint& point, RandomStream& str
     for (const NodeId id : new_nodes_)
         determinised_states_.push_back(determinised.state_of(tree().state(id)));
     if (!determinised.open(determinised_states_, *typical_steps_, meter)) return false;
+    if (!find_later_rewards(point, stream, meter)) return false;
     for (std::size_t n = 0; n < new_nodes_.size(); ++n) {
         Node& node = tree().node(new_nodes_[n]);
         const auto moves = determinised.moves(determinised_states_[n]);
@@ -42,24 +72,74 @@ bool Uct::value_by_determinisation(const DecisionPoint& point, RandomStream& str
         }
         node.is_open = true;
         tree().value_node(node);
-        if (!determinised.stays(determinised_states_[n])) continue;
+        const auto state = determinised_states_[n];
+        if (!determinised.stays(state)) continue;
         unchanged_rewards_.resize(new_nodes_.size());
         unchanged_rewards_[n] = moves.front().reward;
-        if (!simulator_.problem->stochastic || stays_unchanged(point, n, stream, meter))
-            lock(node, moves.front().reward);
+        if (simulator_.problem->stochastic && !determinised.is_confirmed(state))
+            determinised.confirm(state, stays_unchanged(point, n, stream, meter));
+        if (determinised.stays(state)) lock(node, moves.front().reward);
     }
     return true;
 }
 
-// Where the lookahead ends before the episode does, its last reward is taken to continue.
+// The lookahead, and the mean reward of the policy from its end to that of the search.
 double Uct::estimate(const DeterminisedProblem::Move& move, const Node& node) {
+    DeterminisedProblem& determinised = memory_->determinised;
     const std::int64_t left = end_ - node.step;
-    const std::int64_t depth = std::min(left, memory_->determinised.depth());
-    const auto course = memory_->determinised.after(move, depth);
-    double rest = 0, weight = std::pow(tree().discount(), static_cast<double>(depth));
-    for (std::int64_t t = depth; t < left; ++t, weight *= tree().discount())
-        rest += weight * course.last_reward;
-    return course.value + rest;
+    const std::int64_t depth = std::min(left, determinised.depth());
+    const auto course = determinised.after(move, depth);
+    if (course.end == DeterminisedProblem::over || left == depth) return course.value;
+    return course.value + std::pow(tree().discount(), static_cast<double>(depth)) *
+                              discounted_steps(left - depth) * determinised.later(course.end);
+}
+
+// The discounted sum of a reward of 1 in each of so many steps.
+double Uct::discounted_steps(std::int64_t steps) const {
+    const double discount = tree().discount();
+    return discount == 1 ? static_cast<double>(steps)
+                         : (1 - std::pow(discount, static_cast<double>(steps))) / (1 - discount);
+}
+
+// The ends of lookaheads from new nodes whose later rewards are not known.
+void Uct::find_ends() {
+    DeterminisedProblem& determinised = memory_->determinised;
+    ends_.clear();
+    for (std::size_t n = 0; n < new_nodes_.size(); ++n) {
+        if (end_ - tree().node(new_nodes_[n]).step <= determinised.depth()) continue;
+        for (const auto& move : determinised.moves(determinised_states_[n])) {
+            const auto end = determinised.after(move, determinised.depth()).end;
+            if (end == DeterminisedProblem::over || !std::isnan(determinised.later(end))) continue;
+            determinised.later(end) =
+                determinised.stays(end) ? determinised.moves(end).front().reward : 0;
+            if (!determinised.stays(end)) ends_.push_back(end);
+        }
+    }
+}
+
+bool Uct::find_later_rewards(const DecisionPoint& point, RandomStream& stream, BudgetMeter& meter) {
+    find_ends();
+    DeterminisedProblem& determinised = memory_->determinised;
+    const std::int64_t depth = std::min(later_steps, end_ - step_);
+    const std::size_t draws = simulator_.problem->stochastic ? later_draws : 1;
+    const std::size_t some = std::max<std::size_t>(1, continuations_.lanes() / draws);
+    for (std::size_t first = 0; first < ends_.size(); first += some) {
+        const std::size_t count = std::min(some, ends_.size() - first);
+        starts_.clear();
+        for (std::size_t k = 0; k < count * draws; ++k)
+            starts_.push_back({determinised.record(ends_[first + k / draws]), step_, nullptr, depth,
+                               stream.bits()});
+        if (!meter.has_room(static_cast<std::int64_t>(starts_.size()) * depth, 0) ||
+            !continuations_.run(point, starts_, policies_[policy_], meter)) {
+            for (std::size_t k = first; k < ends_.size(); ++k)
+                determinised.later(ends_[k]) = std::numeric_limits<double>::quiet_NaN();
+            return false;
+        }
+        for (std::size_t k = 0; k < starts_.size(); ++k)
+            determinised.later(ends_[first + k / draws]) +=
+                continuations_.value(k) / discounted_steps(depth) / static_cast<double>(draws);
+    }
+    return true;
 }
 
 // Each action of each new node is tried, and the policy plays on: the actions of a node with the

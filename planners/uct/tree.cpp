@@ -1,7 +1,5 @@
 #include "planners/uct/tree.hpp"
 
-#include "planners/uct/state_hash.hpp"
-
 #include <algorithm>
 #include <limits>
 
@@ -21,20 +19,18 @@ std::uint64_t Tree::key_of(const std::byte* state, std::int64_t step) const {
 }
 
 const NodeId* Tree::find(const std::byte* state, std::int64_t step) const {
-    const auto found = ids_.find(key_of(state, step));
-    return found == ids_.end() ? nullptr : &found->second;
+    return ids_.find(key_of(state, step));
 }
 
 NodeId Tree::node_of(const std::byte* state, std::int64_t step) {
-    const auto [found, is_new] =
-        ids_.try_emplace(key_of(state, step), static_cast<NodeId>(nodes_.size()));
+    const auto [id, is_new] = ids_.add(key_of(state, step), static_cast<NodeId>(nodes_.size()));
     if (is_new) {
         Node node;
         node.step = step;
         nodes_.push_back(node);
         states_.insert(states_.end(), state, state + state_size_);
     }
-    return found->second;
+    return id;
 }
 
 void Tree::add_edge(NodeId id, std::uint32_t action) {
@@ -78,8 +74,8 @@ NodeId Tree::seen_outcome(EdgeId id, double share) const {
 }
 
 std::size_t Tree::bytes() const {
-    return nodes_.size() * (sizeof(Node) + state_size_ + 48) + edges_.size() * sizeof(Edge) +
-           outcomes_.size() * sizeof(Outcome);
+    return nodes_.size() * (sizeof(Node) + state_size_) + ids_.bytes() +
+           edges_.size() * sizeof(Edge) + outcomes_.size() * sizeof(Outcome);
 }
 
 void Tree::keep_below(EdgeId edge) {
@@ -143,9 +139,17 @@ void Tree::back_up(NodeId id, EdgeId edge_id, double reward, double rest) {
         }
         mean = edge.rewards / done + discount_ * after / count;
     }
-    const double weight = edge.estimates > 0 ? 1 : 0;
+    const double weight = edge.estimates > 0 ? 1 : 0, before = edge.value;
     edge.value = (weight * edge.estimate + done * mean) / (weight + done);
-    value_node(nodes_[id]);
+    Node& node = nodes_[id];
+    const auto place = static_cast<std::int32_t>(edge_id - node.first_edge);
+    const bool is_best = place == node.best;
+    if (node.best < 0 || (is_best && edge.value < before)) {
+        value_node(node);
+    } else if (is_best || edge.value > node.value) {
+        node.best = place;
+        node.value = edge.value;
+    }
 }
 
 void Tree::value_node(Node& node) {
@@ -153,7 +157,10 @@ void Tree::value_node(Node& node) {
     for (const Edge& edge : edges(node)) {
         const double weight = edge.done + (edge.estimates > 0 ? 1 : 0);
         if (weight == 0) continue;
-        best = std::max(best, edge.value);
+        if (backup_ == Backup::Max && (count == 0 || edge.value > best)) {
+            best = edge.value;
+            node.best = static_cast<std::int32_t>(id_of(edge) - node.first_edge);
+        }
         sum += weight * edge.value;
         count += weight;
     }

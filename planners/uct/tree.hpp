@@ -2,12 +2,13 @@
 // and what came of these. States that are met again at the same step are one node.
 #pragma once
 
+#include "planners/uct/state_hash.hpp"
 #include "planners/uct/uct_options.hpp"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -22,6 +23,9 @@ struct Node {
     std::int32_t draws = 0;  // that its value was found by, before it had edges with values
     std::int64_t step = 0;   // of the episode
     double value = 0;
+    std::int32_t best = -1;  // the edge, from 0, whose value is the node's; -1: no such edge
+    std::int32_t preferred =
+        -1;                  // the edge, from 0, of the action that a policy takes; -1: unknown
     bool is_open = false;    // its edges have values
     bool is_locked = false;  // whatever is done, the state and the reward stay: the value is exact
 };
@@ -67,6 +71,12 @@ class Tree {
         return {edges_.data() + node.first_edge, node.edge_count};
     }
     Edge& edge(EdgeId id) { return edges_[id]; }
+    // Asks for the memory of the node's edges, which a choice among them reads soon.
+    void prefetch_edges(const Node& node) const {
+        const auto* const first = reinterpret_cast<const char*>(edges_.data() + node.first_edge);
+        const std::size_t size = std::min<std::size_t>(node.edge_count * sizeof(Edge), 4096);
+        for (std::size_t b = 0; b < size; b += 64) __builtin_prefetch(first + b);
+    }
     EdgeId id_of(const Edge& edge) const { return static_cast<EdgeId>(&edge - edges_.data()); }
     const std::byte* state(NodeId id) const { return states_.data() + id * state_size_; }
     std::size_t size() const { return nodes_.size(); }
@@ -92,7 +102,7 @@ class Tree {
     std::vector<Edge> edges_;
     std::vector<Outcome> outcomes_;
     std::vector<std::byte> states_;
-    std::unordered_map<std::uint64_t, NodeId> ids_;
+    StateTable ids_;
 };
 
 }  // namespace rddlc::planners

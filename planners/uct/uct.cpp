@@ -15,8 +15,7 @@ namespace rddlc::planners {
 namespace {
 
 constexpr std::int64_t first_depth = 40;
-// States that a lookahead in the determinised problem may meet, and steps that it takes at most.
-constexpr std::size_t lookahead_states = 64;
+// Steps of a lookahead in the determinised problem, at most.
 constexpr std::int64_t deepest_lookahead = 100;
 // A budget of steps lasts for so many lookaheads.
 constexpr std::int64_t least_lookaheads = 10;
@@ -58,7 +57,7 @@ Initial initial_of(const UctOptions& options) {
 
 std::int64_t leaf_lanes(const UctOptions& options, std::size_t actions) {
     const auto each =
-        static_cast<std::int64_t>(initial_of(options) == Initial::Lookahead ? actions : 1);
+        static_cast<std::int64_t>(initial_of(options) == Initial::Lookahead ? actions : 4);
     return std::clamp<std::int64_t>(affordable_lanes(options, options.lanes) * each, 1,
                                     most_leaf_lanes);
 }
@@ -171,7 +170,7 @@ void Uct::choose_lookahead(BudgetMeter& meter) {
         meter.steps_left() / (least_lookaheads * typical_steps_->cost()) + 1);
     const std::int64_t depth = determinised.affordable_depth(
         determinised.state_of(states_.data()), std::min(end_ - step_, deepest_lookahead),
-        std::min(lookahead_states, affordable), *typical_steps_, meter);
+        std::min(static_cast<std::size_t>(options_.lookahead), affordable), *typical_steps_, meter);
     if (depth > 0 && depth != determinised.depth()) determinised.set_depth(depth);
 }
 
@@ -181,8 +180,14 @@ void Uct::note_range() {
         if (edge.weight() > 0) note_return(edge.value);
 }
 
+double Uct::bonus(const Node& node) const {
+    const double left = static_cast<double>(end_ - node.step) / static_cast<double>(end_ - step_);
+    return std::max(options_.exploration * std::max(0.0, most_ - least_) * left, 1e-9);
+}
+
 // Actions without a value come first. Then the best by value and by how little it was tried (UCB1).
 EdgeId Uct::choose_edge(const Node& node, RandomStream& stream) {
+    if (node.preferred >= 0) return choose_by_prior(node);
     double all = 1;
     std::uint32_t untried = 0;
     EdgeId chosen = node.first_edge;
@@ -191,20 +196,38 @@ EdgeId Uct::choose_edge(const Node& node, RandomStream& stream) {
         if (edge.weight() == 0 && stream.below(++untried) == 0) chosen = tree().id_of(edge);
     }
     if (untried > 0) return chosen;
-    const double left = static_cast<double>(end_ - node.step) / static_cast<double>(end_ - step_);
-    const double bonus = options_.exploration * std::max(0.0, most_ - least_) * left;
-    const double logarithm = std::log(all);
+    const double scale = bonus(node) * std::sqrt(std::log(all));
     double best = -std::numeric_limits<double>::infinity();
     // Where all that was seen is alike, the least tried action comes next.
     for (const Edge& edge : tree().edges(node)) {
         // Trials that are under way count as tried, so that those beside them differ.
-        const double bound =
-            edge.value + std::max(bonus, 1e-9) * std::sqrt(logarithm / edge.weight());
+        const double bound = edge.value + scale / std::sqrt(edge.weight());
         if (!(bound > best)) continue;
         best = bound;
         chosen = tree().id_of(edge);
     }
     return chosen;
+}
+
+// PUCT: the policy's action has half of the prior, and all share the rest. An action that was not
+// tried yet has the value of the node.
+EdgeId Uct::choose_by_prior(const Node& node) const {
+    const auto edges = tree().edges(node);
+    double all = 1;
+    for (const Edge& edge : edges) all += edge.weight();
+    const double scale = bonus(node) * std::sqrt(all);
+    std::size_t chosen = 0;
+    double best = -std::numeric_limits<double>::infinity();
+    for (std::size_t e = 0; e < edges.size(); ++e) {
+        const bool is_preferred = e == static_cast<std::size_t>(node.preferred);
+        const double prior = 0.5 / static_cast<double>(edges.size()) + (is_preferred ? 0.5 : 0);
+        const double value = edges[e].weight() > 0 ? edges[e].value : node.value;
+        const double bound = value + scale * prior / (1 + edges[e].weight());
+        if (!(bound > best)) continue;
+        best = bound;
+        chosen = e;
+    }
+    return node.first_edge + static_cast<EdgeId>(chosen);
 }
 
 bool Uct::run_trials(const DecisionPoint& point, RandomStream& stream, BudgetMeter& meter) {
@@ -227,6 +250,8 @@ bool Uct::run_trials(const DecisionPoint& point, RandomStream& stream, BudgetMet
 // False: all have reached their leaves.
 bool Uct::step_trials(RandomStream& stream, std::int64_t step, BudgetMeter& meter) {
     std::int64_t moving = 0;
+    for (const Trial& trial : trials_)
+        if (!trial.is_down) tree().prefetch_edges(tree().node(trial.node));
     for (std::size_t k = 0; k < trials_.size(); ++k) {
         Trial& trial = trials_[k];
         const Node& node = tree().node(trial.node);
@@ -317,7 +342,7 @@ void Uct::decide(const DecisionPoint& point, std::byte* action, Explanation* exp
     RandomStream stream(options_.seed, point.episode, point.step);
     BudgetMeter meter(options_.budget, point.stops);
     choose_memory(point);
-    if (!is_determinised()) choose_policy(point, stream, meter);
+    choose_policy(point, stream, meter);
     const bool is_open = open_root(point, stream, meter);
     const bool is_locked = tree().node(root_).is_locked;
     if (is_open && !is_locked && tree().node(root_).edge_count > 1)

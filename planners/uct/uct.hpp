@@ -58,12 +58,21 @@ class Uct : public Planner {
     bool step_trials(RandomStream& stream, std::int64_t depth, BudgetMeter& meter);
     void follow(std::size_t k, RandomStream& stream, std::int64_t depth);
     EdgeId choose_edge(const Node& node, RandomStream& stream);
+    EdgeId choose_by_prior(const Node& node) const;
+    // The deviation of values that counts as much as a lack of trials, at that node.
+    double bonus(const Node& node) const;
     // Its actions, where environment `place` of the batch stands.
     void add_edges(NodeId node, const rddl_batch* batch, std::int64_t place);
     bool value_new_nodes(const DecisionPoint& point, RandomStream& stream, BudgetMeter& meter,
                          std::size_t draws);
+    // The policy's own action in each new node.
+    bool find_preferred(const DecisionPoint& point, RandomStream& stream, BudgetMeter& meter);
     bool value_by_determinisation(const DecisionPoint& point, RandomStream& stream,
                                   BudgetMeter& meter);
+    // The mean rewards of the policy where lookaheads from new nodes end.
+    bool find_later_rewards(const DecisionPoint& point, RandomStream& stream, BudgetMeter& meter);
+    void find_ends();
+    double discounted_steps(std::int64_t steps) const;
     double estimate(const DeterminisedProblem::Move& move, const Node& node);
     bool value_by_policy(const DecisionPoint& point, RandomStream& stream, BudgetMeter& meter,
                          std::size_t draws);
@@ -111,6 +120,8 @@ class Uct : public Planner {
     // Edges of new nodes whose action has changed nothing, as a count for each node.
     std::vector<std::uint32_t> unchanged_;
     std::vector<double> unchanged_rewards_;
+    std::vector<DeterminisedProblem::StateId>
+        ends_;  // of lookaheads, whose later rewards are sought
     std::vector<DeterminisedProblem::StateId> determinised_states_;  // of new nodes
     double least_ = 0, most_ = 0;                                    // returns that were seen
 };

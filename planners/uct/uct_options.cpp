@@ -29,6 +29,12 @@ solvers::OptionTable<UctOptions> make_uct_table() {
              "0: "
              "all (4)"},
             [](auto& o) -> auto& { return o.outcomes; }, 0.0, 1e9),
+        number_option<UctOptions, int>(
+            {"lookahead", "lookahead", "N",
+             "States that a search in the determinised problem may meet, beginning with that of "
+             "the "
+             "decision: it is as deep as that allows (64)"},
+            [](auto& o) -> auto& { return o.lookahead; }, 1, 1 << 20),
         choice_option<UctOptions, Backup>(
             {"backup", "backup", "HOW",
              "A state is worth its best action by the outcomes that were seen (max, the default), "

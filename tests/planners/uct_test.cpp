@@ -85,6 +85,32 @@ TEST(Uct, FindsADistantGoal) {
     EXPECT_LT(run(*problem.simulator, planner + ",initial=rollout").mean(), -29);
 }
 
+// With a lookahead of one step a new state is worth that step and what a policy does after it. In
+// the network random play, which is better than no-op, is worth 70.
+TEST(Uct, ValuesTheRestByAPolicy) {
+    const Explanation first =
+        run(network(), "plan:uct,lookahead=1,iterations=1,lanes=1").thought(0, 0);
+    double sum = 0;
+    for (const Explanation::Candidate& candidate : first.candidates) sum += candidate.value;
+    EXPECT_NEAR(sum / static_cast<double>(first.candidates.size()), 70, 12);
+}
+
+// A policy's own action is tried more often than without a policy, however bad it is. The values
+// stay the same.
+TEST(Uct, TriesTheActionOfThePolicyFirst) {
+    const auto thought = [](const std::string& options) {
+        return run(ladder(), "plan:uct,initial=lookahead,lanes=1," + options).thought(0, 0);
+    };
+    const Explanation with = thought("iterations=60,policy=noop"),
+                      without = thought("iterations=60");
+    EXPECT_GT(with.candidates[0].trials, without.candidates[0].trials + 5);
+    EXPECT_EQ(thought("iterations=20000,policy=noop").chosen, 1u);
+    EXPECT_NEAR(thought("iterations=20000,policy=noop").candidates[1].value, 4.75, 0.15);
+    EXPECT_EQ(
+        run(network(), "plan:uct,policy=random,initial=determinised,steps=5000").summary.episodes,
+        1);
+}
+
 // The first decision has so many trials as candidates show. The second one has those of the first
 // one that began with what came of it, as well.
 TEST(Uct, KeepsTheTreeFromOneDecisionToTheNext) {
@@ -129,15 +155,12 @@ TEST(DeterminisedProblem, HasTheValuesOfTypicalCourses) {
     EXPECT_EQ(meter.steps(), made);  // all is known
     const auto moves = problem.moves(start);
     ASSERT_EQ(moves.size(), 3u);  // no-op, forward, side
-    for (const auto& [move, depth, value, last] : {std::tuple{1, 5, -5.0, -1.0},
-                                                   {1, 12, -12.0, -1.0},
-                                                   {1, 20, -12.0, 0.0},
-                                                   {0, 1, -1.0, -1.0},
-                                                   {0, 20, -13.0, 0.0},
-                                                   {2, 13, -13.0, -1.0}}) {
+    const std::tuple<int, std::int64_t, double> courses[] = {
+        {1, 5, -5}, {1, 13, -12}, {1, 20, -12}, {0, 1, -1}, {0, 20, -13}};
+    for (const auto& [move, depth, value] : courses) {
         const auto course = problem.after(moves[static_cast<std::size_t>(move)], depth);
         EXPECT_EQ(course.value, value) << move << " " << depth;
-        EXPECT_EQ(course.last_reward, last) << move << " " << depth;
+        EXPECT_EQ(problem.stays(course.end), depth >= 13) << move << " " << depth;
     }
     EXPECT_FALSE(problem.stays(start));
     auto state = start;
