@@ -48,7 +48,7 @@ void collect(const ir::Program& program, ir::NodeId id, std::set<ir::NodeId>& be
     for (ir::NodeId operand : ir::operands_of(program[id])) collect(program, operand, below);
 }
 
-// Of numbers: the chance is then an expression of them, which may become a table.
+// An aggregation of numbers: the chance is then an expression of it, which may become a table.
 bool share_an_aggregation(const ir::Program& program, ir::NodeId a, ir::NodeId b) {
     std::set<ir::NodeId> below_a, below_b;
     collect(program, a, below_a);
