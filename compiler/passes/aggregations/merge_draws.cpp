@@ -150,8 +150,9 @@ std::optional<Drawn> drawn(ir::Builder& builder, ir::NodeId id) {
 std::optional<ir::NodeId> merged(ir::Builder& builder, const ir::Select& select) {
     const ir::Program& program = builder.program();
     const auto a = drawn(builder, select.then_value);
+    if (!a) return std::nullopt;
     const auto b = drawn(builder, select.else_value);
-    if (!a || !b || a->sample.distribution != b->sample.distribution ||
+    if (!b || a->sample.distribution != b->sample.distribution ||
         !have_same_numbers(program, a->sample, b->sample))
         return std::nullopt;
     const bool then_faults = may_be_wrong(builder, a->sample);
