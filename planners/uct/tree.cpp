@@ -1,9 +1,8 @@
 #include "planners/uct/tree.hpp"
 
-#include "planners/simulation/random_stream.hpp"
+#include "planners/uct/state_hash.hpp"
 
 #include <algorithm>
-#include <cstring>
 #include <limits>
 
 namespace rddlc::planners {
@@ -17,31 +16,21 @@ void Tree::clear() {
     ids_.clear();
 }
 
-// Two states of 10^6 have the same key with a chance of 10^-7; such are taken for one.
-std::uint64_t Tree::key_of(const std::byte* state, std::int64_t depth) const {
-    std::uint64_t key = scrambled(static_cast<std::uint64_t>(depth) + 1);
-    std::size_t b = 0;
-    for (; b + 8 <= state_size_; b += 8) {
-        std::uint64_t word;
-        std::memcpy(&word, state + b, 8);
-        key = scrambled(key ^ word) + 0x9E3779B97F4A7C15u;
-    }
-    std::uint64_t rest = 0;
-    if (b < state_size_) std::memcpy(&rest, state + b, state_size_ - b);
-    return scrambled(key ^ rest);
+std::uint64_t Tree::key_of(const std::byte* state, std::int64_t step) const {
+    return hash_of(state, state_size_, static_cast<std::uint64_t>(step));
 }
 
-const NodeId* Tree::find(const std::byte* state, std::int64_t depth) const {
-    const auto found = ids_.find(key_of(state, depth));
+const NodeId* Tree::find(const std::byte* state, std::int64_t step) const {
+    const auto found = ids_.find(key_of(state, step));
     return found == ids_.end() ? nullptr : &found->second;
 }
 
-NodeId Tree::node_of(const std::byte* state, std::int64_t depth) {
+NodeId Tree::node_of(const std::byte* state, std::int64_t step) {
     const auto [found, is_new] =
-        ids_.try_emplace(key_of(state, depth), static_cast<NodeId>(nodes_.size()));
+        ids_.try_emplace(key_of(state, step), static_cast<NodeId>(nodes_.size()));
     if (is_new) {
         Node node;
-        node.depth = depth;
+        node.step = step;
         nodes_.push_back(node);
         states_.insert(states_.end(), state, state + state_size_);
     }
@@ -86,6 +75,55 @@ NodeId Tree::seen_outcome(EdgeId id, double share) const {
         left -= outcome.count;
     });
     return chosen;
+}
+
+std::size_t Tree::bytes() const {
+    return nodes_.size() * (sizeof(Node) + state_size_ + 48) + edges_.size() * sizeof(Edge) +
+           outcomes_.size() * sizeof(Outcome);
+}
+
+void Tree::keep_below(EdgeId edge) {
+    Tree kept(state_size_, discount_, backup_);
+    kept.clear();
+    std::vector<NodeId> found;  // in this tree, by their number in the other one
+    std::vector<NodeId> kept_id(size(), over);
+    found.push_back(over);
+    const auto keep = [&](NodeId id) {
+        if (id == over || kept_id[id] != over || !nodes_[id].is_open) return kept_id[id];
+        found.push_back(id);
+        kept_id[id] = kept.node_of(state(id), nodes_[id].step);
+        return kept_id[id];
+    };
+    const auto keep_outcomes = [&](const Edge& from, Edge* to) {
+        std::int32_t last = -1;
+        for (std::int32_t o = from.first_outcome; o >= 0;) {
+            const Outcome& outcome = outcomes_[static_cast<std::size_t>(o)];
+            o = outcome.next;
+            const NodeId node = keep(outcome.node);
+            if (!to || (node == over && outcome.node != over)) continue;
+            const auto place = static_cast<std::int32_t>(kept.outcomes_.size());
+            kept.outcomes_.push_back({node, outcome.count, -1});
+            (last < 0 ? to->first_outcome : kept.outcomes_[static_cast<std::size_t>(last)].next) =
+                place;
+            last = place;
+            ++to->outcome_count;
+        }
+    };
+    keep_outcomes(edges_[edge], nullptr);
+    for (NodeId id = 1; id < found.size(); ++id) {
+        const Node& node = nodes_[found[id]];
+        kept.nodes_[id] = node;
+        kept.nodes_[id].first_edge = static_cast<EdgeId>(kept.edges_.size());
+        for (const Edge& old : edges(node)) {
+            Edge copy = old;
+            copy.started = copy.done;  // trials that were cut off leave nothing
+            copy.first_outcome = -1;
+            copy.outcome_count = 0;
+            keep_outcomes(old, &copy);
+            kept.edges_.push_back(copy);
+        }
+    }
+    *this = std::move(kept);
 }
 
 void Tree::back_up(NodeId id, EdgeId edge_id, double reward, double rest) {

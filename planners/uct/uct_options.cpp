@@ -37,10 +37,13 @@ solvers::OptionTable<UctOptions> make_uct_table() {
             {{"max", Backup::Max}, {"mean", Backup::Mean}}),
         choice_option<UctOptions, Initial>(
             {"initial", "initial", "HOW",
-             "A new state is valued by each of its actions, and the policy after it (lookahead, "
-             "the default), or by the policy alone (rollout)"},
+             "A new state is valued by a search in the determinised problem (determinised; the "
+             "default without a policy), by each of its actions and the policy after it "
+             "(lookahead; the default with a policy), or by the policy alone (rollout)"},
             [](auto& o) -> auto& { return o.initial; },
-            {{"lookahead", Initial::Lookahead}, {"rollout", Initial::Rollout}}),
+            {{"determinised", Initial::Determinised},
+             {"lookahead", Initial::Lookahead},
+             {"rollout", Initial::Rollout}}),
     };
     table.insert(table.end(), std::make_move_iterator(own.begin()),
                  std::make_move_iterator(own.end()));
