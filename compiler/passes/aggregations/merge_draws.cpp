@@ -48,7 +48,7 @@ void collect(const ir::Program& program, ir::NodeId id, std::set<ir::NodeId>& be
     for (ir::NodeId operand : ir::operands_of(program[id])) collect(program, operand, below);
 }
 
-// Of numbers: the chance is then an expression of them, which may become a table.
+// An aggregation of numbers: the chance is then an expression of it, which may become a table.
 bool share_an_aggregation(const ir::Program& program, ir::NodeId a, ir::NodeId b) {
     std::set<ir::NodeId> below_a, below_b;
     collect(program, a, below_a);
@@ -150,8 +150,9 @@ std::optional<Drawn> drawn(ir::Builder& builder, ir::NodeId id) {
 std::optional<ir::NodeId> merged(ir::Builder& builder, const ir::Select& select) {
     const ir::Program& program = builder.program();
     const auto a = drawn(builder, select.then_value);
+    if (!a) return std::nullopt;
     const auto b = drawn(builder, select.else_value);
-    if (!a || !b || a->sample.distribution != b->sample.distribution ||
+    if (!b || a->sample.distribution != b->sample.distribution ||
         !have_same_numbers(program, a->sample, b->sample))
         return std::nullopt;
     const bool then_faults = may_be_wrong(builder, a->sample);

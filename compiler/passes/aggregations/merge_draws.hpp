@@ -9,7 +9,8 @@
 //     select(a, sample bernoulli@0[c](0.2), select(b, true, select(d, sample bernoulli@1[c](P[c]),
 //                                                                  state.up[c])))
 //                                       =>
-//     select(a || !b && d, sample bernoulli@0[c](select(a, 0.2, P[c])), select(b, true, state.up[c]))
+//     select(a || !b && d, sample bernoulli@0[c](select(a, 0.2, P[c])),
+//            select(b, true, state.up[c]))
 //
 // Packs, of which some lanes take each branch, then draw once. If the parameters of one draw may be
 // wrong, its place stays, so that the fault is reported for the right one. A draw that is also used

@@ -85,17 +85,20 @@ class CallTabulation {
             for (const ir::TableView& input : call.inputs) step.passed.insert(input.buffer);
             step.is_fixed &= !ir::is_external(call.callee) && !ir::is_draw(call.callee);
         });
+        std::set<ir::NodeId> visited;
         for (const ir::NodeId root : ir::roots_of(block)) {
             step.is_fixed &= !properties_[root.index].random;
-            collect_reads(root, step);
+            collect_reads(root, visited, step);
         }
         return step;
     }
-    void collect_reads(ir::NodeId id, Step& step) const {
+    void collect_reads(ir::NodeId id, std::set<ir::NodeId>& visited, Step& step) const {
+        if (!visited.insert(id).second) return;
         const ir::Node& node = program_[id];
         step.is_fixed &= !std::holds_alternative<ir::Local>(node.form);
         if (const auto buffer = ir::buffer_read_by(node)) step.reads.insert(*buffer);
-        for (const ir::NodeId operand : ir::operands_of(node)) collect_reads(operand, step);
+        for (const ir::NodeId operand : ir::operands_of(node))
+            collect_reads(operand, visited, step);
     }
 
     // Leaves out statements that depend on others than fixed ones, or whose tables do.
