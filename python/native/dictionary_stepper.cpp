@@ -10,13 +10,13 @@ namespace rddlc::python {
 
 namespace {
 
-// Python's calls of the three parts take longer than most steps do.
+// One call of Python, since calls of the three parts take longer than most steps do.
 class DictionaryStepper {
   public:
     DictionaryStepper(EnvPool& batch, DictionaryWriter& writer, DictionaryReader& reader)
         : batch_(batch), writer_(writer), reader_(reader) {}
 
-    // What env.step() returns; None, and nothing is done, for what the writer does not take.
+    // The result of env.step(); None, and nothing is done, for what the writer does not take.
     nb::object step(nb::handle action) {
         batch_.finish();
         if (!writer_.write(action)) return nb::none();
@@ -24,7 +24,7 @@ class DictionaryStepper {
         return result();
     }
 
-    // Of the last step.
+  private:
     nb::tuple result() {
         const auto& arrays = batch_.arrays();
         const std::uint8_t causes = arrays.causes[0];
@@ -33,7 +33,6 @@ class DictionaryStepper {
                               (causes & ~RDDL_TERMINATED) != 0, nb::dict());
     }
 
-  private:
     EnvPool& batch_;
     DictionaryWriter& writer_;
     DictionaryReader& reader_;
@@ -47,8 +46,7 @@ void add_dictionary_stepper(nb::module_& module) {
         .def(nb::init<EnvPool&, DictionaryWriter&, DictionaryReader&>(), nb::arg("batch"),
              nb::arg("writer"), nb::arg("reader"), nb::keep_alive<1, 2>(), nb::keep_alive<1, 3>(),
              nb::keep_alive<1, 4>())
-        .def("step", &DictionaryStepper::step, nb::arg("action").none())
-        .def("result", &DictionaryStepper::result);
+        .def("step", &DictionaryStepper::step, nb::arg("action").none());
 }
 
 }  // namespace rddlc::python

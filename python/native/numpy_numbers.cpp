@@ -19,24 +19,13 @@ double read(const void* place) {
 }
 
 std::optional<double> number_at(const void* place, int type) {
-    switch (type) {
-        case NPY_DOUBLE:
-            return read<double>(place);
-        case NPY_FLOAT:
-            return read<float>(place);
-        case NPY_LONG:
-        case NPY_LONGLONG:
-            return read<std::int64_t>(place);
-        case NPY_INT:
-            return read<std::int32_t>(place);
-        case NPY_BOOL:
-        case NPY_BYTE:
-            return read<std::int8_t>(place);
-        case NPY_UBYTE:
-            return read<std::uint8_t>(place);
-        default:
-            return std::nullopt;
-    }
+    if (type == NPY_DOUBLE) return read<double>(place);
+    if (type == NPY_FLOAT) return read<float>(place);
+    if (type == NPY_LONG || type == NPY_LONGLONG) return read<std::int64_t>(place);
+    if (type == NPY_INT) return read<std::int32_t>(place);
+    if (type == NPY_BOOL || type == NPY_BYTE) return read<std::int8_t>(place);
+    if (type == NPY_UBYTE) return read<std::uint8_t>(place);
+    return std::nullopt;
 }
 
 // The number of a type of numpy's scalars; np.float64 is a float of Python's.

@@ -9,7 +9,7 @@
 
 namespace rddlc::python {
 
-// Comes before all that follows; throws where numpy cannot be imported.
+// The other functions need it called before; throws where numpy cannot be imported.
 void import_numpy();
 
 // A new array of the shape ().
