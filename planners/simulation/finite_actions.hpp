@@ -16,9 +16,9 @@ namespace rddlc::planners {
 
 class FiniteActions {
   public:
-    // As many as the learner's space has: each category by itself, or so many picks. The first one
-    // is the default action, where that is one of them. Nothing where a number may be any real, or
-    // where there are more than `most`.
+    // As many as the learner's space has: each category by itself, or so many sub-actions. The
+    // first one is the default action, where that is one of them. Nothing where a number may be any
+    // real, or where there are more than `most`.
     static std::optional<FiniteActions> of(const rddl_simulator& simulator,
                                            const solvers::ActionSpace& space, std::size_t most);
 
@@ -32,7 +32,7 @@ class FiniteActions {
     FiniteActions(const rddl_simulator& simulator, bool asks)
         : simulator_(&simulator), asks_(asks) {}
     void add_categories(const solvers::ActionSpace& space);
-    void add_picks(const solvers::ActionSpace& space);
+    void add_sub_actions(const solvers::ActionSpace& space);
     void add(const solvers::ActionSpace& space, const std::vector<std::int32_t>& indices);
 
     const rddl_simulator* simulator_;
