@@ -258,7 +258,9 @@ def main() -> int:
     different, slow = disagreements(comparisons), shortfalls(comparisons)
     print("", *means(comparisons), *different, *slow, sep="\n")
     if options.write:
-        write_section("handwritten", f"{machine_text()}:\n\n{markdown_table([TITLES, *map(columns, comparisons)])}")
+        table = markdown_table([TITLES, *map(columns, comparisons)])
+        aims = "\n".join(f"* {line}" for line in means(comparisons))
+        write_section("handwritten", f"{machine_text()}:\n\n{table}\n\n{aims}")
     return 1 if different or (options.require and slow) else 0
 
 

@@ -3,6 +3,7 @@
     test_benchmarks.py RDDL
 """
 
+import argparse
 import contextlib
 import io
 import json
@@ -23,6 +24,7 @@ import compare_jax  # noqa: E402
 import document  # noqa: E402
 import growth  # noqa: E402
 import handwritten  # noqa: E402
+import lanes  # noqa: E402
 import plots  # noqa: E402
 import pyRDDLGym  # noqa: E402
 import segments  # noqa: E402
@@ -254,6 +256,22 @@ class Handwritten(unittest.TestCase):
         )
 
 
+class Lanes(unittest.TestCase):
+    def test_the_number_is_that_of_the_emitted_text(self):
+        options = argparse.Namespace(build=Path(RDDL).parents[1])
+        self.assertEqual(lanes.chosen("Navigation_MDP_ippc2011", options), 64)
+        self.assertEqual(lanes.chosen("Knapsack_or", options), 16)
+
+    def test_limits(self):
+        good = lanes.Choice("good", {16: 10.0, 64: 10.2}, 64)
+        bad = lanes.Choice("bad", {16: 10.0, 64: 20.0}, 64)
+        self.assertEqual(lanes.complaints([good] * 9), [])
+        self.assertEqual(
+            lanes.complaints([bad, good]),
+            ["bad: 64 lanes take 2.00 times as long as the best number", "the mean loss is 1.428"],
+        )
+
+
 class Growth(unittest.TestCase):
     def point(self, objects: int, seconds: float) -> growth.Point:
         return growth.Point("fire", objects, 8 * objects, seconds, 0.0, 0)
@@ -306,7 +324,7 @@ class Document(unittest.TestCase):
 
     def test_sections_of_the_pages_exist(self):
         text = "".join(page.read_text() for page in document.DOCUMENTS)
-        for name in ("comparison", "comparison by problem", "jax", "jax by problem", "handwritten", "growth", "compile cost"):
+        for name in ("comparison", "comparison by problem", "jax", "jax by problem", "handwritten", "lanes", "growth", "compile cost"):
             self.assertEqual(text.count(f"<!-- begin of {name} -->"), 1, name)
             self.assertEqual(text.count(f"<!-- end of {name} -->"), 1, name)
 
