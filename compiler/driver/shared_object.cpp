@@ -4,6 +4,7 @@
 #include "driver/compiler_failure.hpp"
 #include "driver/cpp_compiler.hpp"
 #include "driver/process.hpp"
+#include "ir/lane_count.hpp"
 #include "support/files.hpp"
 
 #include <rddl/lanes/processor.hpp>
@@ -12,6 +13,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
@@ -292,6 +294,11 @@ bool prepare_runtime(const fs::path& folder, RealType real, const std::stop_toke
         return succeeds(batches) && is_filled(folder / batches_name);
     }
     return succeeds(batches) && is_filled(folder / batches_name) && succeeds(header_result);
+}
+
+bool has_prepared_batches(std::optional<int> lane_count) {
+    return !lane_count || *lane_count == 1 ||
+           std::ranges::count(ir::suitable_lane_counts, *lane_count) > 0;
 }
 
 bool build_shared_object(const fs::path& source, const fs::path& output, Processors processors,
