@@ -19,6 +19,7 @@ PARTS = (
     ("compare.py", True, True),
     ("compare_jax.py", True, True),
     ("handwritten.py", False, True),
+    ("lanes.py", True, True),
     ("growth.py", False, True),
     ("segments.py", False, True),
     ("compile_cost.py", False, True),

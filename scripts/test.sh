@@ -43,6 +43,17 @@ export RDDL_REPOSITORY
 # Tests that start with an empty cache of simulators compile the same again and again: once is enough.
 export PATH="/usr/lib/ccache:$PATH" CCACHE_DIR="$PWD/build/ccache" CCACHE_MAXSIZE=1G
 jobs=$(nproc)
+# The end of a long log says what failed, and how.
+show_failures() {
+    local log=$1/Testing/Temporary test
+    [ -f "$log/LastTestsFailed.log" ] || return 0
+    cut -d: -f2- "$log/LastTestsFailed.log" | while read -r test; do
+        echo "failed: $test"
+        awk -v test="$test" '/^[0-9]+\/[0-9]+ Test: /{ shown = $3 == test } shown' "$log/LastTest.log" |
+            tail -n 60
+    done
+}
+rm -f build/Testing/Temporary/LastTestsFailed.log build/sanitize/Testing/Temporary/LastTestsFailed.log
 # Both sets run, even if the first fails; the exit status reports either failure.
 status=0
 ctest --test-dir build --parallel "$jobs" --output-on-failure ${once[@]+"${once[@]}"} "$@" || status=1
@@ -51,5 +62,7 @@ ctest --test-dir build --parallel "$jobs" --output-on-failure ${once[@]+"${once[
     ulimit -S -s 65536
     ctest --test-dir build/sanitize --label-regex sanitize --parallel "$jobs" --output-on-failure "$@"
 ) || status=1
+show_failures build
+show_failures build/sanitize
 [ "$status" -eq 0 ] || echo "error: some tests failed" >&2
 exit "$status"

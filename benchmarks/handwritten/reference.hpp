@@ -33,13 +33,24 @@ struct Draws {
     Word step;
     rddl::philox::Key<Word> key;
 
-    // The numbers with indices 2 block and 2 block + 1.
+    // The numbers with indices 2 block and 2 block + 1, in [0, 1).
     auto two(Word site, Word block) const {
-        const auto words = rddl::philox::generate<rddl::philox::draw_rounds>(
-            rddl::philox::Block<Word>{step, site, block, Word{std::uint64_t{0}}}, key);
+        const auto words = generate(site, block);
         const auto even = rddl::unit_real(words[0], words[1]);
         return rddl::TwoDraws<std::remove_const_t<decltype(even)>>{
             even, rddl::unit_real(words[2], words[3])};
+    }
+    // The same, times 2^52: integers, to be compared with threshold(p) in place of p.
+    rddl::TwoDraws<Word> two_integers(Word site, Word block) const {
+        const auto words = generate(site, block);
+        return {rddl::join_lower_halves(words[0], words[1]) >> 12,
+                rddl::join_lower_halves(words[2], words[3]) >> 12};
+    }
+
+  private:
+    auto generate(Word site, Word block) const {
+        return rddl::philox::generate<rddl::philox::draw_rounds>(
+            rddl::philox::Block<Word>{step, site, block, Word{std::uint64_t{0}}}, key);
     }
 };
 

@@ -31,10 +31,27 @@ rddl::Lanes<double, n> gather(const double* table, const rddl::Lanes<std::int64_
     return values;
 }
 
+// Integers of 64 bits.
+template <class T, int n>
+rddl::Lanes<T, n> gather_integers(const T* table, const rddl::Lanes<std::int64_t, n>& index) {
+    rddl::Lanes<T, n> values;
+#ifdef RDDL_SIMD_AVX512
+    for (int p = 0; p < values.part_count; ++p)
+        values.part[p] = (typename rddl::Lanes<T, n>::Vector)_mm512_i64gather_epi64(
+            (__m512i)index.part[p], table, sizeof(T));
+#else
+    for (int lane = 0; lane < n; ++lane) values.set(lane, table[index[lane]]);
+#endif
+    return values;
+}
+
 inline double lane_of(double value, std::int64_t) {
     return value;
 }
 inline std::uint64_t lane_of(std::uint64_t value, std::int64_t) {
+    return value;
+}
+inline std::int64_t lane_of(std::int64_t value, std::int64_t) {
     return value;
 }
 template <class T, int n>

@@ -72,9 +72,292 @@ def reservoir() -> list[str]:
     ]
 
 
+def number(name: str, value, kind: str = "double") -> str:
+    return f"inline constexpr {kind} {name} = {value};"
+
+
+def integers(name: str, values, kind: str = "std::int64_t") -> str:
+    """Integers or bools, row after row."""
+    values = np.asarray(values, dtype=int)
+    sizes = "".join(f"[{size}]" for size in values.shape)
+    return f"inline constexpr {kind} {name}{sizes} = {{{', '.join(map(str, values.ravel()))}}};"
+
+
+def the_only(bools) -> int:
+    """The place of the one that is true, row after row."""
+    (place,) = np.flatnonzero(bools)
+    return int(place)
+
+
+def game_of_life() -> list[str]:
+    values = values_of("GameOfLife_MDP_ippc2011", "10")
+    columns, rows = values["alive"].shape
+    for (a, b, c, d), is_near in np.ndenumerate(values["NEIGHBOR"]):
+        assert is_near == (max(abs(a - c), abs(b - d)) == 1), "the eight cells around a cell"
+    assert (columns, rows) == (10, 3)
+    return [array("noise", values["NOISE-PROB"].ravel()), bit_sets("alive", [values["alive"].ravel()])]
+
+
+def navigation() -> list[str]:
+    values = values_of("Navigation_MDP_ippc2011", "10")
+    columns, rows = values["robot-at"].shape
+
+    def moved(x: int, y: int) -> list[int]:
+        targets = []
+        for name, along, at in (("NORTH", 1, y), ("SOUTH", 1, y), ("EAST", 0, x), ("WEST", 0, x)):
+            to = np.flatnonzero(values[name][at])
+            assert len(to) <= 1
+            place = [x, y]
+            if len(to):
+                place[along] = int(to[0])
+            targets.append(place[0] * rows + place[1] if len(to) else -1)
+        return targets
+
+    targets = [moved(x, y) for x in range(columns) for y in range(rows)]
+    return [
+        array("danger", values["P"].ravel()),
+        integers("next", np.transpose(targets), "int"),
+        number("robot", the_only(values["robot-at"]), "int"),
+        number("goal", the_only(values["GOAL"]), "int"),
+    ]
+
+
+def crossing_traffic() -> list[str]:
+    values = values_of("CrossingTraffic_MDP_ippc2014", "10")
+    after = np.eye(7, k=1, dtype=bool)
+    for name, is_after in (("NORTH", after), ("SOUTH", after.T), ("EAST", after), ("WEST", after.T)):
+        assert np.array_equal(values[name], is_after), "cells follow each other"
+    assert [list(np.flatnonzero(values[name])) for name in ("MAX-XPOS", "MIN-YPOS", "MAX-YPOS")] == [[6], [0], [6]]
+    the_only(values["GOAL"])
+    return [
+        bit_sets("robot", [values["robot-at"].ravel()]),
+        bit_sets("obstacles", [values["obstacle-at"].ravel()]),
+        bit_sets("goal", [values["GOAL"].ravel()]),
+        number("input_rate", values["INPUT-RATE"]),
+    ]
+
+
+def academic_advising() -> list[str]:
+    values = values_of("AcademicAdvising_MDP_ippc2014", "10")
+    constants = {"PRIOR_PROB_PASS_NO_PREREQ": 0.8, "PRIOR_PROB_PASS": 0.2, "COURSE_COST": -1, "COURSE_RETAKE_COST": -2}
+    assert all(np.all(values[name] == value) for name, value in constants.items())
+    return [bit_sets("prerequisites", values["PREREQ"].T), bit_sets("program", [values["PROGRAM_REQUIREMENT"]])]
+
+
+def skill_teaching() -> list[str]:
+    values = values_of("SkillTeaching_MDP_ippc2014", "10")
+    names = ("PROB_HIGH", "PROB_ALL_PRE", "PROB_PER_PRE", "PROB_ALL_PRE_MED", "PROB_PER_PRE_MED", "LOSE_PROB")
+    return [
+        array("weight", values["SKILL_WEIGHT"]),
+        bit_sets("required", values["PRE_REQ"].T),
+        *(array(name.lower(), values[name]) for name in names),
+    ]
+
+
+def triangle_tireworld() -> list[str]:
+    values = values_of("TriangleTireworld_MDP_ippc2014", "10")
+    spares = ", ".join(str(int(spare)) for spare in values["spare-in"])
+    return [
+        f"inline constexpr std::array<bool, {values['spare-in'].size}> spares = {{{spares}}};",
+        integers("road", values["road"], "bool"),
+        number("start", the_only(values["vehicle-at"]), "std::size_t"),
+        number("goal", the_only(values["goal-location"]), "std::size_t"),
+        number("good_tire", int(values["not-flattire"]), "bool"),
+        number("flat_probability", values["FLAT-PROB"]),
+    ]
+
+
+def elevators() -> list[str]:
+    values = values_of("Elevators_MDP_ippc2014", "10")
+    assert np.array_equal(values["ADJACENT-UP"], np.eye(6, k=1)) and values["elevator-at-floor"].shape == (1, 6)
+    assert (values["ELEVATOR-PENALTY-RIGHT-DIR"], values["ELEVATOR-PENALTY-WRONG-DIR"]) == (0.75, 3)
+    ends = [the_only(values[name]) for name in ("elevator-at-floor", "BOTTOM-FLOOR", "TOP-FLOOR")]
+    assert ends == [0, 0, 5]
+    return [array("arrive", values["ARRIVE-PARAM"])]
+
+
+def traffic() -> list[str]:
+    values = values_of("Traffic_MDP_ippc2014", "10")
+    half = np.eye(36, k=2, dtype=bool)
+    assert np.array_equal(values["FLOWS-INTO-CELL"], np.kron(np.eye(2, dtype=bool), half)), "two cells further"
+    inputs = values["PERIMETER-INPUT-CELL"].reshape(2, 36)
+    assert np.array_equal(np.flatnonzero(inputs[0]), [0, 1]) and np.array_equal(inputs[0], inputs[1])
+    assert not np.any(values["light-signal1"]) and not np.any(values["light-signal2"])
+
+    def sets(name: str, cells) -> str:
+        words = [sum(1 << int(k) for k in np.flatnonzero(part)) for part in np.reshape(cells, (-1, 36))]
+        size = f"[{len(words) // 2}][2]" if len(words) > 2 else "[2]"
+        return f"inline constexpr std::uint64_t {name}{size} = {{{', '.join(map(hex, words))}}};"
+
+    return [
+        sets("occupied", values["occupied"]),
+        sets("exits", values["PERIMETER-EXIT-CELL"]),
+        sets("north_south", values["FLOWS-INTO-INTERSECTION-NS"].T),
+        sets("east_west", values["FLOWS-INTO-INTERSECTION-EW"].T),
+        array("rates", values["PERIMETER-INPUT-RATE"].reshape(2, 36)[:, :2]),
+    ]
+
+
+def knapsack() -> list[str]:
+    values = values_of("Knapsack_or", "0")
+    return [
+        array("probability", values["ITEM-PROB"]),
+        integers("weight", values["ITEM-WEIGHT"]),
+        integers("value", values["ITEM-VALUE"]),
+    ]
+
+
+def bin_packing() -> list[str]:
+    values = values_of("BinPacking_or", "0")
+    return [array("probability", values["ITEM-PROB"]), integers("size", values["ITEM-SIZE"])]
+
+
+def power_gen() -> list[str]:
+    values = values_of("PowerGen_ippc2023", "5")
+    assert np.all(values["PROD-SHAPE"] == 1) and not np.any(values["prevOn"]) and not np.any(values["prevProd"])
+    assert np.all(values["PROD-UNITS-MIN"] > 0)
+    tables = {
+        "least": "PROD-UNITS-MIN",
+        "greatest": "PROD-UNITS-MAX",
+        "scale": "PROD-SCALE",
+        "cost": "COST-PER-UNIT",
+        "change": "PROD-CHANGE-PENALTY",
+        "turn_on": "TURN-ON-COST",
+    }
+    numbers = {
+        "income": "INCOME-PER-UNIT",
+        "temperature": "temperature",
+        "temperature_variance": "TEMP-VARIANCE",
+        "least_temperature": "TEMP-MIN",
+        "greatest_temperature": "TEMP-MAX",
+        "demand_factor": "DEMAND-EXP-COEF",
+        "least_demand_temperature": "MIN-DEMAND-TEMP",
+        "least_demand": "MIN-CONSUMPTION",
+        "penalty": "UNFULFILLED-DEMAND-PENALTY",
+    }
+    return [
+        *(array(name, values[fluent]) for name, fluent in tables.items()),
+        *(number(name, values[fluent]) for name, fluent in numbers.items()),
+    ]
+
+
+def hvac() -> list[str]:
+    values = values_of("HVAC_ippc2023", "5")
+    same = {"HEAT-COST": "heat_cost", "ZONE-VOL": "zone_volume", "HEATER-VOL": "heater_volume", "SIGMA": "exchange"}
+    for name in same:
+        assert np.all(values[name] == values[name][0])
+    assert np.all(values["occupied"]) and np.all(values["ADJ-HEATER"].sum(axis=1) > 0)
+    numbers = {
+        "TEMP-OUT": "outside",
+        "AIR-COST": "air_cost",
+        "ZONE-DISCOMFORT-PENALTY": "penalty",
+        "TEMP-ZONE-MIN": "least",
+        "TEMP-ZONE-MAX": "greatest",
+        "OUT-AIR-FLOW": "out_air_flow",
+        "K": "k",
+        "K-dz": "zone_loss",
+        "K-dh": "heater_loss",
+        "DELTA-T": "dt",
+    }
+    return [
+        bit_sets("neighbours", values["ADJ-ZONES"] | values["ADJ-ZONES"].T),
+        bit_sets("zones_of_heater", values["ADJ-HEATER"]),
+        bit_sets("heaters_of_zone", values["ADJ-HEATER"].T),
+        array("zone_start", values["temp-zone"]),
+        array("heater_start", values["temp-heater"]),
+        array("leave", values["P-SWITCH"]),
+        *(number(name, float(values[fluent][0])) for fluent, name in same.items()),
+        *(number(name, float(values[fluent])) for fluent, name in numbers.items()),
+    ]
+
+
+def epidemic() -> list[str]:
+    values = values_of("Epidemic", "0")
+    same = {"incubation_rate": "incubation", "recover_rate": "recover", "discharge_rate": "discharge"}
+    assert all(np.all(values[name] == values[name][0]) for name in same)
+    costs = {"vacc_cost": 0.05, "distancing_cost": 0.5, "school_cost": 1, "death_cost": 1000, "overload_cost": 500, "hosp_capacity": 0.05}
+    assert all(values[name] == cost for name, cost in costs.items())
+    return [
+        array("start", [values[name] for name in "SEIRHD"]),
+        array("contact", values["contact_rate"]),
+        array("hospital_rate", values["hosp_rate"]),
+        array("death_rate", values["death_rate"]),
+        integers("at_school", values["affect_by_school_shutdown"], "bool"),
+        *(number(name, float(values[fluent][0])) for fluent, name in same.items()),
+        number("distancing", float(values["distancing_reduction_rate"])),
+        number("closing", float(values["school_shutdown_reduction_rate"])),
+    ]
+
+
+def recsim() -> list[str]:
+    values = values_of("RecSim_ippc2023", "1")
+    providers = len(values["PROVIDER-DISCOUNT"])
+    assert np.array_equal(values["LESS"], np.triu(np.ones((providers, providers)), k=1))
+    assert np.array_equal(values["NEXT-PROVIDER"], np.eye(providers, k=1))
+    assert np.all(values["PROVIDER-DISCOUNT"] == 0.5) and not np.any(values["item-by"])
+    assert not np.any(values["consumer-satisfaction"])
+    return [
+        array("satisfaction", values["provider-satisfaction"]),
+        array("affinity", values["CONSUMER-AFFINITY"]),
+        array("competence", values["PROVIDER-COMPETENCE"]),
+        array("first_features", values["item-feature"]),
+        number("greatest_affinity", float(values["MAX-AFFINITY"])),
+    ]
+
+
+def pizza() -> list[str]:
+    values = values_of("Pizza_rddlsim", "0")
+    orders = [f"{{{place}, {count}}}" for place, count in enumerate(values["ORDERS"]) if count > 0]
+    assert [list(np.flatnonzero(row)) for row in values["truckAt"]] == [[0], [0]] and np.all(values["hot"])
+    assert not any(np.any(values[name]) for name in ("delivered", "pizzaInTruck", "disposed"))
+    return [
+        "struct Orders { int place; std::uint64_t count; };",
+        f"inline constexpr Orders orders[] = {{{', '.join(orders)}}};",
+        number("shop", 1, "std::uint64_t"),
+        number("drive_probability", float(values["DRIVEPROB"][0])),
+    ]
+
+
+def intruders_discrete() -> list[str]:
+    values = values_of("Intruders_Discrete", "0")
+    steps = [[np.argmax(rows, axis=1) for rows in values[name]] for name in ("TARGET-X", "TARGET-Y")]
+    assert all(np.all(values[name].sum(axis=2) == 1) for name in ("TARGET-X", "TARGET-Y"))
+    targets = [[x[a] * 4 + y[b] for a in range(4) for b in range(4)] for x, y in zip(*steps, strict=True)]
+    return [
+        integers("next", targets),
+        integers("intruders", [the_only(places) for places in values["intruder-at"]]),
+        integers("cameras", [the_only(places) for places in values["camera-at"]]),
+        integers("danger", np.flatnonzero(values["IS-DANGER-ZONE"])),
+    ]
+
+
+TABLES = (
+    mountain_car,
+    sysadmin,
+    wildfire,
+    reservoir,
+    game_of_life,
+    navigation,
+    crossing_traffic,
+    academic_advising,
+    skill_teaching,
+    triangle_tireworld,
+    elevators,
+    traffic,
+    knapsack,
+    bin_packing,
+    power_gen,
+    hvac,
+    epidemic,
+    recsim,
+    pizza,
+    intruders_discrete,
+)
+
+
 def main() -> None:
-    print("// Made by tables.py.\n#pragma once\n\n#include <cstdint>")
-    for tables in (mountain_car, sysadmin, wildfire, reservoir):
+    print("// Made by tables.py.\n#pragma once\n\n#include <array>\n#include <cstddef>\n#include <cstdint>")
+    for tables in TABLES:
         print(f"\nnamespace {tables.__name__} {{", *tables(), "}", sep="\n")
 
 

@@ -5,6 +5,7 @@
 #include "command_line/explain_option.hpp"
 #include "driver/explain.hpp"
 #include "driver/files.hpp"
+#include "driver/shared_object.hpp"
 #include "support/failure.hpp"
 #include "support/program.hpp"
 
@@ -52,7 +53,7 @@ struct Arguments {
     std::string color = "auto";
     std::string standard = "pyrddlgym";
     bool details = false;
-    std::string lanes = "16";
+    std::string lanes;
     std::string real = "double";
     std::int64_t memory_limit = default_memory_limit;
     std::string explanation;
@@ -162,10 +163,11 @@ void add_code_options(Command& command, Arguments& arguments) {
              arguments.details);
     add_flag(command, "--emit-lines", "#line in the C++ text, for debuggers and profilers",
              arguments.line_directives);
-    add_text_option(command, "--lanes", "N",
-                    "environments that a step of a batch computes at once: 8, 16 (the default), "
-                    "32, 64, or 1",
-                    arguments.lanes)
+    add_text_option(
+        command, "--lanes", "N",
+        "environments that a step of a batch computes at once: 8, 16, 32, 64, or 1; the "
+        "default depends on the problem",
+        arguments.lanes)
         .choices = {"1", "8", "16", "32", "64"};
     add_text_option(command, "--real", "TYPE",
                     "type of reals in computations: double (the default), or float, which "
@@ -341,12 +343,11 @@ CompileOptions compile_options(const Arguments& arguments) {
     options.entry = entry(arguments);
     options.line_directives = arguments.line_directives;
     options.details = arguments.details;
-    options.lane_count = std::stoi(arguments.lanes);
+    if (!arguments.lanes.empty()) options.lane_count = std::stoi(arguments.lanes);
     options.real = arguments.real == "float" ? RealType::Float : RealType::Double;
     options.memory_limit = arguments.memory_limit;
     options.portable = portable(arguments);
-    // It holds packs of the usual size alone.
-    if (options.lane_count == CompileOptions{}.lane_count)
+    if (has_prepared_batches(options.lane_count))
         options.prepared_runtime = [real = options.real] {
             return runtime_in_cache(real);
         };

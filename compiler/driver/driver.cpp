@@ -15,6 +15,7 @@
 #include "ground/ground.hpp"
 #include "ground/memory.hpp"
 #include "ir/analysis.hpp"
+#include "ir/lane_count.hpp"
 #include "ir/print.hpp"
 #include "ir/verify.hpp"
 #include "model/print.hpp"
@@ -107,12 +108,12 @@ ir::Program verified(ir::Program program) {
     return program;
 }
 
-EmitOptions emit_options(const CompileOptions& options) {
+EmitOptions emit_options(const CompileOptions& options, const ir::Program& program) {
     const std::string name = options.output ? options.output->filename().string() : "simulator.cpp";
     return {.header = output_kind(name) == OutputKind::Header,
             .entry = options.entry,
             .line_directives = options.line_directives,
-            .lane_count = options.lane_count,
+            .lane_count = options.lane_count.value_or(ir::suitable_lane_count(program)),
             .output_name = name,
             .compiler_version = version,
             .extern_headers = include_paths(options)};
@@ -132,11 +133,12 @@ void run_emit(Run& run) {
     if (run.options.real == RealType::Float)
         refuse_float_reals(run.options, *result.program, diagnostics);
     if (diagnostics.has_errors()) return;
+    const EmitOptions emitting = emit_options(run.options, *result.program);
     result.text = run.measure(Stage::Emit, [&] {
-        return emit(*result.program, result.sources, emit_options(run.options),
+        return emit(*result.program, result.sources, emitting,
                     result.details ? &*result.details : nullptr);
     });
-    result.declaration = emit_declaration(*result.program, emit_options(run.options));
+    result.declaration = emit_declaration(*result.program, emitting);
     run.show(Form::Cpp, [&] { return result.text; });
 }
 

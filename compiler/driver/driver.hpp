@@ -58,7 +58,8 @@ struct CompileOptions {
     Stage stop_after = Stage::Write;
     std::string entry;  // the function that the output exports; empty: named after the problem
     bool line_directives = false;
-    int lane_count = EmitOptions{}.lane_count;
+    // Environments in a pack; absent: chosen for the problem (ir/lane_count.hpp).
+    std::optional<int> lane_count;
     RealType real = RealType::Double;
     bool details = false;  // what a step computes on its way can be asked for
     std::int64_t memory_limit = default_memory_limit;  // bytes of one environment

@@ -37,6 +37,10 @@ std::vector<std::string> shared_object_command(const std::filesystem::path& sour
 bool prepare_runtime(const std::filesystem::path& folder, RealType real,
                      const std::stop_token& stop = {});
 
+// Whether that code serves simulators with packs of so many environments; absent: with as many as
+// are chosen for the problem.
+bool has_prepared_batches(std::optional<int> lane_count);
+
 // An object for any processor of x86-64 holds the simulator for each instruction set; its entry
 // chooses when it is called. For those like this one, it is made with the files that
 // prepare_runtime has put into the folder `prepared`, if there is one, as far as the compiler

@@ -37,7 +37,6 @@ ordered_json before_and_after(auto before, auto after) {
 }  // namespace
 
 std::string statistics_text(const std::vector<PassRun>& runs) {
-    if (runs.empty()) return "no pass ran\n";
     std::size_t width = 0;
     for (const PassRun& run : runs) width = std::max(width, run.name.size());
     std::string text = fmt::format("{:{}}  {:>7}  {:>12}  {:>8}  {}\n", "pass", width, "nodes",

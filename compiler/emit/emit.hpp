@@ -19,7 +19,7 @@ struct EmitOptions {
     std::string entry = "";
     // #line before every statement, so that debuggers and profilers show the RDDL text.
     bool line_directives = false;
-    // Environments that a step in a batch computes at once (8, 16, 32 or 64; 1: no packs).
+    // Environments that a step of a batch computes at once (8, 16, 32 or 64; 1: no packs).
     int lane_count = 16;
     // The name under which the text will be stored, for what comes after the last #line.
     std::string output_name = "simulator.cpp";

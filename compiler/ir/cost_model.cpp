@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <map>
 #include <set>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -17,6 +18,13 @@ namespace {
 
 double size_of(const Program& program, VariableId variable) {
     return static_cast<double>(program[variable].size);
+}
+
+bool draws(const Node& node) {
+    return match(
+        node.form, [](const Sample&) { return true; }, [](const Discrete&) { return true; },
+        [](const DiscreteOver&) { return true; }, [](const Interval&) { return true; },
+        [](const auto&) { return false; });
 }
 
 // The average length of the rows, where the bounds are neighbours in a table of where rows begin.
@@ -30,12 +38,15 @@ double length_of(const Program& program, const Bounds& bounds, double size) {
 // where that is possible.
 class BlockCost {
   public:
-    BlockCost(const Program& program, const Block& body) : program_(program) {
-        collect_stores(body, 0);
+    // Of packs if the properties of all nodes are there: they run over one object after the other.
+    BlockCost(const Program& program, std::span<const Properties> properties)
+        : program_(program), properties_(properties) {}
+    void add_body(const Block& body) {
+        collect_stores(body, outside);
         add(body, outside);
     }
     void add_value(NodeId id) { add(id, outside); }
-    double total() const { return total_; }
+    const PackCost& total() const { return total_; }
 
   private:
     // A loop or a reduction around what is evaluated. Its level is the number of those around it.
@@ -50,14 +61,16 @@ class BlockCost {
     // The levels of the loops that a value depends on, as bits.
     using Levels = std::uint64_t;
 
-    // A table that is filled in loops is read inside of them, if it is read there.
-    void collect_stores(const Block& block, std::size_t level) {
+    // A table that is filled in loops changes for what reads it inside of them.
+    void collect_stores(const Block& block, Place place) {
         for (const Statement& statement : block) {
             match(
                 statement.form, [](const Let&) {},
-                [&](const Store& store) { stored_[store.target] = level; },
-                [&](const Loop& loop) { collect_stores(loop.body, level + 1); },
-                [&](const Call& call) { stored_[call.output.buffer] = level; });
+                [&](const Store& store) { stored_[store.target] = place; },
+                [&](const Loop& loop) {
+                    collect_stores(loop.body, inside(place, loop.variable, times_of(loop)));
+                },
+                [&](const Call& call) { stored_[call.output.buffer] = place; });
         }
     }
 
@@ -72,16 +85,19 @@ class BlockCost {
     void add(const Store& store, Place place) {
         add(store.value, place);
         for (const NodeId index : store.indices) add(index, place);
-        pay(1, place);
+        pay(1, place, kind_of_value(store.value));
     }
     void add(const Loop& loop, Place place) {
-        const double size = size_of(program_, loop.variable);
-        const double at_once = loop.as_words          ? bools_at_once
+        const double times = times_of(loop);
+        pay(times, place, &PackCost::block);
+        add(loop.body, inside(place, loop.variable, times));
+    }
+    double times_of(const Loop& loop) const {
+        const double at_once = !properties_.empty()   ? 1
+                               : loop.as_words        ? bools_at_once
                                : loop.several_at_once ? objects_at_once
                                                       : 1;
-        const double times = std::ceil(size / at_once);
-        pay(times, place);
-        add(loop.body, inside(place, loop.variable, times));
+        return std::ceil(size_of(program_, loop.variable) / at_once);
     }
     // It reads its tables and fills its output.
     void add(const Call& call, Place place) {
@@ -89,7 +105,7 @@ class BlockCost {
         double elements = static_cast<double>(program_[call.output.buffer].count());
         for (const TableView& input : call.inputs)
             elements += static_cast<double>(program_[input.buffer].count());
-        pay(1 + elements, place);
+        pay(1 + elements, place, &PackCost::numbers);
     }
 
     // Pays for the node where it is computed: in the innermost of the loops on which it depends.
@@ -97,7 +113,7 @@ class BlockCost {
         const Node& node = program_[id];
         const Place where = at_level(place, levels_of(id, place));
         if (!paid_.insert({id, where}).second) return;
-        pay(own_cost(program_, node), where);
+        pay(own_cost(program_, node), where, kind_of(id));
         const std::vector<NodeId> operands = operands_of(node);
         for (std::size_t i = 0; i < operands.size(); ++i) add(operands[i], around(node, i, where));
     }
@@ -133,8 +149,16 @@ class BlockCost {
         const auto buffer = buffer_read_by(node);
         const auto stored = buffer ? stored_.find(*buffer) : stored_.end();
         if (stored == stored_.end()) return 0;
-        const std::size_t common = std::min(stored->second, arounds_[place].level);
+        const std::size_t common = common_level(stored->second, place);
         return common == 0 ? 0 : bit_of(common);
+    }
+    // The level of the innermost loop around both places.
+    std::size_t common_level(Place a, Place b) const {
+        while (a != b) {
+            Place& inner = arounds_[a].level < arounds_[b].level ? b : a;
+            inner = arounds_[inner].outer;
+        }
+        return arounds_[a].level;
     }
     Levels level_of(VariableId variable, Place place) const {
         for (; place != outside; place = arounds_[place].outer)
@@ -158,17 +182,61 @@ class BlockCost {
         return found->second;
     }
 
-    void pay(double cost, Place place) { total_ += cost * arounds_[place].evaluations; }
+    using Kind = double PackCost::*;
+    void pay(double cost, Place place, Kind kind) {
+        total_.*kind += cost * arounds_[place].evaluations;
+    }
+    bool is_uniform(NodeId id) const {
+        return !properties_.empty() && properties_[id.index].uniform;
+    }
+    Kind kind_of_value(NodeId id) const {
+        return program_[id].type == Scalar::Bool || is_uniform(id) ? &PackCost::block
+                                                                   : &PackCost::numbers;
+    }
+    Kind kind_of(NodeId id) const {
+        const Node& node = program_[id];
+        if (draws(node)) return &PackCost::draws;
+        const auto is_one = [&](NodeId operand) {
+            return kind_of_value(operand) == &PackCost::block;
+        };
+        return std::ranges::all_of(operands_of(node), is_one) ? kind_of_value(id)
+                                                              : &PackCost::numbers;
+    }
 
     const Program& program_;
+    std::span<const Properties> properties_;
     std::vector<Around> arounds_ = {{outside, {}, 0, 1}};
     std::map<std::pair<Place, VariableId>, Place> inner_;
     std::map<std::pair<NodeId, Place>, Levels> levels_;
     std::set<std::pair<NodeId, Place>> paid_;
     std::map<LocalId, Levels> levels_of_local_;
-    std::map<BufferId, std::size_t> stored_;  // the level of its stores
-    double total_ = 0;
+    std::map<BufferId, Place> stored_;  // of its stores
+    PackCost total_;
 };
+
+PackCost cost_of(const Program& program, std::span<const Properties> properties) {
+    PackCost total;
+    const auto add = [&](const BlockCost& cost) {
+        total.block += cost.total().block;
+        total.numbers += cost.total().numbers;
+        total.draws += cost.total().draws;
+    };
+    const auto add_computation = [&](const Computation& computation) {
+        BlockCost cost(program, properties);
+        cost.add_body(computation.body);
+        cost.add_value(computation.value);
+        add(cost);
+    };
+    add_computation(program.reward);
+    for (const Definition& definition : program.step) {
+        BlockCost cost(program, properties);
+        cost.add_body(definition.body);
+        add(cost);
+    }
+    for (const auto* conditions : {&program.invariants, &program.terminations})
+        for (const Computation& condition : *conditions) add_computation(condition);
+    return total;
+}
 
 }  // namespace
 
@@ -212,17 +280,12 @@ double repetitions(const Program& program, const Node& binder) {
 }
 
 double cost_of_step(const Program& program) {
-    const auto cost_of_computation = [&](const Computation& computation) {
-        BlockCost cost(program, computation.body);
-        cost.add_value(computation.value);
-        return cost.total();
-    };
-    double total = step_cost + cost_of_computation(program.reward);
-    for (const Definition& definition : program.step)
-        total += BlockCost(program, definition.body).total();
-    for (const auto* conditions : {&program.invariants, &program.terminations})
-        for (const Computation& condition : *conditions) total += cost_of_computation(condition);
-    return total;
+    const PackCost cost = cost_of(program, {});
+    return step_cost + cost.block + cost.numbers + cost.draws;
+}
+
+PackCost pack_cost_of_step(const Program& program) {
+    return cost_of(program, all_properties(program));
 }
 
 }  // namespace rddlc::ir

@@ -12,9 +12,9 @@
 namespace rddlc::ir {
 
 // Prices that fit measured time (benchmarks/cost_model.py). A Select of two branches of at most
-// cheap_cost needs no branch; an elementary function, as exp, is a polynomial of about ten terms and
-// its reduction; a draw is a block of Philox, and that of a real also a quantile; a step takes its
-// call, its random stream and its flags.
+// cheap_cost needs no branch; an elementary function, as exp, is a polynomial of about ten terms
+// and its reduction; a draw is a block of Philox, and that of a real also a quantile; a step takes
+// its call, its random stream and its flags.
 inline constexpr double cheap_cost = 6;
 inline constexpr double division_cost = 4;
 inline constexpr double elementary_cost = 110;
@@ -40,5 +40,14 @@ double repetitions(const Program& program, const Node& binder);
 // it: what does not change in a loop is computed before it, and what stands twice in a definition
 // is computed once (passes/sharing/share_subexpressions.hpp).
 double cost_of_step(const Program& program);
+
+// The cost of one step of a pack of environments, by what it depends on.
+struct PackCost {
+    double block = 0;    // not the number of lanes: bools, which are the bits of a number, and what
+                         // is the same in all lanes
+    double numbers = 0;  // of each lane: ints and reals
+    double draws = 0;    // of each lane, where branches are taken: all that draws
+};
+PackCost pack_cost_of_step(const Program& program);
 
 }  // namespace rddlc::ir

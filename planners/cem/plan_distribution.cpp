@@ -15,7 +15,7 @@ namespace {
 constexpr float least_share = 0.02f;
 // And so much that of a step before.
 constexpr float shifted_share = 0.1f;
-// The chance that a first pick stops.
+// The chance that a first sub-action stops.
 constexpr float first_stop = 0.2f;
 
 // The share of the normal distribution below x, within a hundredth.
@@ -30,9 +30,9 @@ std::int32_t place_in(const float* cumulative, std::size_t count, float share) {
         std::min<std::ptrdiff_t>(found - cumulative, static_cast<std::ptrdiff_t>(count) - 1));
 }
 
-bool has_picked(const ActionSpace& space, const std::int32_t* picks, int count, int column) {
+bool is_changed(const ActionSpace& space, const std::int32_t* sub_actions, int count, int column) {
     for (int p = 0; p < count; ++p)
-        if (space.choices[static_cast<std::size_t>(picks[p])].column == column) return true;
+        if (space.choices[static_cast<std::size_t>(sub_actions[p])].column == column) return true;
     return false;
 }
 
@@ -45,11 +45,11 @@ Distribution::Distribution(const ActionSpace& space, Spread spread)
       first_probabilities_(logits()),
       fitted_(logits()),
       latent_(reals() + indices()) {
-    if (space.picks > 0 && logits() > 1) {
+    if (space.max_sub_actions > 0 && logits() > 1) {
         std::ranges::fill(first_probabilities_,
                           (1 - first_stop) / static_cast<float>(logits() - 1));
         first_probabilities_.front() = first_stop;
-    } else if (space.picks > 0) {
+    } else if (space.max_sub_actions > 0) {
         first_probabilities_.front() = 1;
     }
     for (const CategoryHead& head : space.categories)
@@ -102,7 +102,7 @@ void Distribution::prepare() {
             cumulative_[k] = sum += probabilities_[k];
     };
     for (std::size_t t = 0; t < static_cast<std::size_t>(steps_); ++t) {
-        if (space_.picks > 0) add_up(t * logits(), logits());
+        if (space_.max_sub_actions > 0) add_up(t * logits(), logits());
         for (const CategoryHead& head : space_.categories)
             add_up(t * logits() + static_cast<std::size_t>(head.first_logit),
                    static_cast<std::size_t>(head.count));
@@ -125,8 +125,8 @@ void Distribution::draw(RandomStream& stream, double correlation, Plan& plan) co
         }
         const float* const cumulative = cumulative_.data() + t * logits();
         std::int32_t* const chosen = plan.indices.data() + t * indices();
-        if (space_.picks > 0)
-            draw_picks(latent + reals(), cumulative, chosen);
+        if (space_.max_sub_actions > 0)
+            draw_sub_actions(latent + reals(), cumulative, chosen);
         else
             draw_categories(latent + reals(), cumulative, chosen);
     }
@@ -141,18 +141,18 @@ void Distribution::draw_categories(const float* latent, const float* cumulative,
     }
 }
 
-// A value that was picked before is not picked again: that pick is left out.
-void Distribution::draw_picks(const float* latent, const float* cumulative,
-                              std::int32_t* chosen) const {
-    int picked = 0;
-    for (int p = 0; p < space_.picks; ++p) {
-        const std::int32_t pick =
+// A sub-action that changes the same value as one before it is left out.
+void Distribution::draw_sub_actions(const float* latent, const float* cumulative,
+                                    std::int32_t* chosen) const {
+    int count = 0;
+    for (int p = 0; p < space_.max_sub_actions; ++p) {
+        const std::int32_t choice =
             place_in(cumulative, logits(), share_below(latent[static_cast<std::size_t>(p)]));
-        if (pick == 0) break;
-        const int column = space_.choices[static_cast<std::size_t>(pick)].column;
-        if (!has_picked(space_, chosen, picked, column)) chosen[picked++] = pick;
+        if (choice == 0) break;
+        const int column = space_.choices[static_cast<std::size_t>(choice)].column;
+        if (!is_changed(space_, chosen, count, column)) chosen[count++] = choice;
     }
-    std::fill(chosen + picked, chosen + space_.picks, 0);
+    std::fill(chosen + count, chosen + space_.max_sub_actions, 0);
 }
 
 void Distribution::middle(Plan& plan) const {
@@ -165,18 +165,19 @@ void Distribution::middle(Plan& plan) const {
             chosen[h] = static_cast<std::int32_t>(
                 std::max_element(first, first + space_.categories[h].count) - first);
         }
-        // The likeliest picks, down to where it is likelier to stop.
-        int picked = 0;
-        for (; picked < space_.picks; ++picked) {
+        // The likeliest sub-actions, down to where it is likelier to stop.
+        int count = 0;
+        for (; count < space_.max_sub_actions; ++count) {
             std::int32_t best = 0;
             for (std::size_t c = 1; c < logits(); ++c)
                 if (row[c] > row[best] &&
-                    !has_picked(space_, chosen, picked, space_.choices[c].column))
+                    !is_changed(space_, chosen, count, space_.choices[c].column))
                     best = static_cast<std::int32_t>(c);
             if (best == 0) break;
-            chosen[picked] = best;
+            chosen[count] = best;
         }
-        if (space_.picks > 0) std::fill(chosen + picked, chosen + space_.picks, 0);
+        if (space_.max_sub_actions > 0)
+            std::fill(chosen + count, chosen + space_.max_sub_actions, 0);
     }
 }
 
@@ -219,17 +220,17 @@ void Distribution::fit_indices(std::int64_t step, std::span<const Plan* const> p
         for (std::size_t h = 0; h < space_.categories.size(); ++h)
             fitted_[static_cast<std::size_t>(space_.categories[h].first_logit + chosen[h])] +=
                 weight;
-        for (int p = 0; p < space_.picks; ++p) {
+        for (int p = 0; p < space_.max_sub_actions; ++p) {
             fitted_[static_cast<std::size_t>(chosen[p])] += weight;
             if (chosen[p] == 0) break;
         }
     }
-    float picks = 0;  // that were made on average, stops included
-    if (space_.picks > 0)
-        for (const float share : fitted_) picks += share;
+    float sub_actions = 0;  // on average, with the one that stops
+    if (space_.max_sub_actions > 0)
+        for (const float share : fitted_) sub_actions += share;
     float* const probabilities = probabilities_.data() + static_cast<std::size_t>(step) * logits();
     for (std::size_t k = 0; k < logits(); ++k) {
-        const float share = space_.picks > 0 ? fitted_[k] / picks : fitted_[k];
+        const float share = space_.max_sub_actions > 0 ? fitted_[k] / sub_actions : fitted_[k];
         const float fit = share + least_share * (first_probabilities_[k] - share);
         const auto part = static_cast<float>(memory);
         probabilities[k] = part * probabilities[k] + (1 - part) * fit;

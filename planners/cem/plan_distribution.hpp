@@ -1,5 +1,5 @@
 // Plans of actions as a search sees them, and the distribution that they are drawn from: for each
-// step normal numbers for reals and probabilities for categories or picks (solvers/spaces).
+// step normal numbers for reals and probabilities for categories or sub-actions (solvers/spaces).
 #pragma once
 
 #include "planners/simulation/random_stream.hpp"
@@ -47,7 +47,7 @@ class Distribution {
   private:
     void begin_steps(std::int64_t from);
     void draw_categories(const float* latent, const float* cumulative, std::int32_t* chosen) const;
-    void draw_picks(const float* latent, const float* cumulative, std::int32_t* chosen) const;
+    void draw_sub_actions(const float* latent, const float* cumulative, std::int32_t* chosen) const;
     void fit_reals(std::int64_t step, std::span<const Plan* const> plans,
                    std::span<const double> weights, double memory, bool keeps_deviations);
     void fit_indices(std::int64_t step, std::span<const Plan* const> plans,

@@ -83,7 +83,7 @@ void Rollout::draw_actions(const DecisionPoint& point, RandomStream& stream) {
             float& value = row[head.column];
             value = base_row_[static_cast<std::size_t>(head.column)] * (1 - share) + value * share;
         }
-        if (share < 1 && space_.picks == 0)
+        if (share < 1 && space_.max_sub_actions == 0)
             for (const solvers::CategoryHead& head : space_.categories)
                 if (head.group.empty() && stream.unit() >= static_cast<double>(share))
                     row[head.column] = base_row_[static_cast<std::size_t>(head.column)];

@@ -18,12 +18,12 @@ double count_of_categories(const ActionSpace& space) {
     return count;
 }
 
-// The greatest number of sets of that many columns that picks can change.
-double count_of_picks(const ActionSpace& space) {
+// The greatest number of sets of that many columns that sub-actions can change.
+double count_of_sub_actions(const ActionSpace& space) {
     const auto changes = static_cast<double>(space.choices.size() - 1);
     double count = 1, sets = 1;
-    for (int picks = 1; picks <= space.picks && picks <= changes; ++picks) {
-        sets *= (changes - picks + 1) / picks;
+    for (int size = 1; size <= space.max_sub_actions && size <= changes; ++size) {
+        sets *= (changes - size + 1) / size;
         count += sets;
     }
     return count;
@@ -34,12 +34,13 @@ double count_of_picks(const ActionSpace& space) {
 std::optional<FiniteActions> FiniteActions::of(const rddl_simulator& simulator,
                                                const ActionSpace& space, std::size_t most) {
     if (!space.reals.empty()) return std::nullopt;
-    const double count = space.picks > 0 ? count_of_picks(space) : count_of_categories(space);
+    const double count =
+        space.max_sub_actions > 0 ? count_of_sub_actions(space) : count_of_categories(space);
     if (count > static_cast<double>(most)) return std::nullopt;
     FiniteActions actions(simulator, space.may_be_illegal);
     actions.size_ = static_cast<std::size_t>(simulator.problem->action_size);
-    if (space.picks > 0)
-        actions.add_picks(space);
+    if (space.max_sub_actions > 0)
+        actions.add_sub_actions(space);
     else
         actions.add_categories(space);
     return actions;
@@ -68,13 +69,13 @@ void FiniteActions::add_categories(const ActionSpace& space) {
 }
 
 // Sets in ascending order of their choices, the smaller ones first.
-void FiniteActions::add_picks(const ActionSpace& space) {
+void FiniteActions::add_sub_actions(const ActionSpace& space) {
     std::vector<std::vector<std::int32_t>> sets{{}};
     for (std::size_t s = 0; s < sets.size(); ++s) {
         std::vector<std::int32_t> indices = sets[s];
-        indices.resize(static_cast<std::size_t>(space.picks), 0);
+        indices.resize(static_cast<std::size_t>(space.max_sub_actions), 0);
         add(space, indices);
-        if (static_cast<int>(sets[s].size()) == space.picks) continue;
+        if (static_cast<int>(sets[s].size()) == space.max_sub_actions) continue;
         const std::int32_t first = sets[s].empty() ? 1 : sets[s].back() + 1;
         for (auto c = first; c < static_cast<std::int32_t>(space.choices.size()); ++c) {
             const auto column = [&](std::int32_t choice) {

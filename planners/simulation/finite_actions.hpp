@@ -16,14 +16,16 @@ namespace rddlc::planners {
 
 class FiniteActions {
   public:
-    // As many as the learner's space has: each category by itself, or so many picks. The first one
-    // is the default action, where that is one of them. Nothing where a number may be any real, or
-    // where there are more than `most`.
+    // As many as the learner's space has: each category by itself, or so many sub-actions. The
+    // first one is the default action, where that is one of them. Nothing where a number may be any
+    // real, or where there are more than `most`.
     static std::optional<FiniteActions> of(const rddl_simulator& simulator,
                                            const solvers::ActionSpace& space, std::size_t most);
 
     std::size_t count() const { return count_; }
     const std::byte* record(std::size_t action) const { return records_.data() + action * size_; }
+    // Whether there are states in which some of them violate preconditions.
+    bool may_be_illegal() const { return asks_; }
     // Whether each of them satisfies the preconditions where environment `place` of the batch
     // stands. Where none does, all are taken for legal.
     void find_legal(const rddl_batch* batch, std::int64_t place, std::vector<std::uint8_t>& legal);
@@ -32,7 +34,7 @@ class FiniteActions {
     FiniteActions(const rddl_simulator& simulator, bool asks)
         : simulator_(&simulator), asks_(asks) {}
     void add_categories(const solvers::ActionSpace& space);
-    void add_picks(const solvers::ActionSpace& space);
+    void add_sub_actions(const solvers::ActionSpace& space);
     void add(const solvers::ActionSpace& space, const std::vector<std::int32_t>& indices);
 
     const rddl_simulator* simulator_;

@@ -110,7 +110,7 @@ void RowWriter::change(const std::int64_t* entries) {
     float* values = reinterpret_cast<float*>(batch_.arrays().action_values.data());
     for (std::int64_t row = 0; row < count; ++row, values += columns) {
         std::ranges::copy(changes_.defaults, values);
-        for (std::size_t pick = 0; pick < limits_.size(); ++pick) {
+        for (std::size_t k = 0; k < limits_.size(); ++k) {
             const auto category = static_cast<std::size_t>(*entries++);
             if (changes_.columns[category] >= 0)
                 values[changes_.columns[category]] = changes_.values[category];

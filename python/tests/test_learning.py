@@ -82,20 +82,20 @@ class SimplifiedActions(unittest.TestCase):
         self.assertEqual([observation["count___a"], observation["count___b"]], [2, -1])
         self.assertAlmostEqual(observation["filled"].item(), 0.25)
 
-    def test_few_changes_are_picked_one_after_the_other(self) -> None:
+    def test_few_changes_are_chosen_one_after_the_other(self) -> None:
         env = written("counters_two", actions="simplified")
         # Two other colours, three other counts of each counter, push and pull, nothing.
         self.assertEqual(env.action_space["discrete"], spaces.MultiDiscrete([11, 11]))
         env.reset(seed=1)
         numbers = [0.5, 0.25]
-        for picks, color, counts, filled in (
+        for changes, color, counts, filled in (
             ([10, 10], 1, [0, 0], 0),
             ([1, 4], 2, [2, 0], 0),
             ([8, 10], 1, [0, 0], 0.5),
             ([9, 7], 1, [0, 2], -0.25),
         ):
             env.reset(seed=1)
-            shown = env.step({"discrete": picks, "continuous": numbers})[0]
+            shown = env.step({"discrete": changes, "continuous": numbers})[0]
             self.assertEqual(shown["shade"], color)
             self.assertEqual([shown["count___a"], shown["count___b"]], counts)
             self.assertAlmostEqual(shown["filled"].item(), filled)

@@ -81,7 +81,7 @@ class TransitionsTest(unittest.TestCase):
         self.assertIn(number_of(transitions), transitions.applicable(gone))
 
     def test_a_changed_action_is_counted_once(self) -> None:
-        """Two picks of three changes are nine pairs, but three sets and the empty one."""
+        """Two sub-actions of three changes are nine pairs, but three sets and the empty one."""
         transitions = Transitions(problem_of_text(COINS))
         self.assertEqual(transitions.action_count, 4)
 

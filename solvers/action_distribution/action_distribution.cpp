@@ -99,7 +99,7 @@ ActionDistribution::ActionDistribution(const rddl_simulator& simulator, const Ac
     if (space.masked)
         choice_masks_.resize(count *
                              static_cast<std::size_t>(simulator.action_choice_count(&simulator)));
-    if (space.picks > 0) picked_.resize(static_cast<std::size_t>(space.column_count));
+    if (space.max_sub_actions > 0) changed_.resize(static_cast<std::size_t>(space.column_count));
     if (space.may_be_illegal) repair_ = RepairBuffers(simulator, space, environments);
 }
 
@@ -120,8 +120,8 @@ void ActionDistribution::choose_all(rddl_batch* batch, const float* outputs, int
     if (!random && space_.logit_count == 0) return write_means(batch, outputs, output_row, actions);
     for (std::int64_t i = 0; i < environments_; ++i)
         choose_reals(static_cast<std::size_t>(i), outputs + i * output_row, deviations, chosen);
-    if (space_.picks > 0)
-        choose_picks(batch, outputs, output_row, random, chosen, actions);
+    if (space_.max_sub_actions > 0)
+        choose_sub_actions(batch, outputs, output_row, random, chosen, actions);
     else if (!space_.categories.empty())
         choose_categories(batch, outputs, output_row, random, chosen);
 
@@ -216,18 +216,18 @@ void ActionDistribution::choose_categories(rddl_batch* batch, const float* outpu
     }
 }
 
-void ActionDistribution::choose_picks(rddl_batch* batch, const float* outputs, int output_row,
-                                      bool random, const Chosen& chosen, float* actions) {
-    const auto picks = static_cast<std::size_t>(space_.picks);
+void ActionDistribution::choose_sub_actions(rddl_batch* batch, const float* outputs, int output_row,
+                                            bool random, const Chosen& chosen, float* actions) {
+    const auto sub_actions = static_cast<std::size_t>(space_.max_sub_actions);
     const auto logits = static_cast<std::size_t>(space_.logit_count);
-    std::fill_n(chosen.indices, keys_.size() * picks, -1);
-    bool picking = true;
-    for (int p = 0; p < space_.picks && picking && !is_stopped(stops_); ++p) {
+    std::fill_n(chosen.indices, keys_.size() * sub_actions, -1);
+    bool is_choosing = true;
+    for (int p = 0; p < space_.max_sub_actions && is_choosing && !is_stopped(stops_); ++p) {
         if (p > 0) {
             for (std::size_t i = 0; i < keys_.size(); ++i)
                 write_action(space_,
                              chosen.numbers + i * static_cast<std::size_t>(space_.real_count()),
-                             chosen.indices + i * picks,
+                             chosen.indices + i * sub_actions,
                              actions + i * static_cast<std::size_t>(space_.column_count));
             write_records(actions);
         }
@@ -237,51 +237,53 @@ void ActionDistribution::choose_picks(rddl_batch* batch, const float* outputs, i
                                                 choice_masks_.data()));
         else
             std::fill(choice_masks_.begin(), choice_masks_.end(), std::uint8_t{1});
-        picking = false;
+        is_choosing = false;
         for (std::size_t i = 0; i < keys_.size(); ++i) {
-            std::int32_t* const index = chosen.indices + i * picks;
+            std::int32_t* const index = chosen.indices + i * sub_actions;
             if (p > 0 && index[p - 1] <= 0) continue;  // has stopped
-            mask_pick(i, p, chosen);
+            mask_sub_action(i, p, chosen);
             const std::uint8_t* const mask =
-                chosen.masks + (i * picks + static_cast<std::size_t>(p)) * logits;
+                chosen.masks + (i * sub_actions + static_cast<std::size_t>(p)) * logits;
             const float* const row =
                 outputs + static_cast<std::ptrdiff_t>(i) * output_row + space_.real_count();
             const auto words = words_of(keys_[i], of_categories + static_cast<std::uint32_t>(p));
             index[p] = random ? draw(space_.logit_count, row, mask, unit(words[0]))
                               : likeliest(space_.logit_count, row, mask);
-            picking |= index[p] > 0;
+            is_choosing |= index[p] > 0;
         }
     }
 }
 
-// Masks the next pick: a choice must be legal then. If no choice is legal, all that are not picked
-// yet are allowed, since more changes may repair the action.
-void ActionDistribution::mask_pick(std::size_t i, int pick, const Chosen& chosen) {
-    const auto picks = static_cast<std::size_t>(space_.picks);
+// Masks the next sub-action: a choice must be legal then. If no choice is legal, all whose column
+// has not changed yet are allowed, since more changes may repair the action.
+void ActionDistribution::mask_sub_action(std::size_t i, int sub_action, const Chosen& chosen) {
+    const auto sub_actions = static_cast<std::size_t>(space_.max_sub_actions);
     const std::size_t logits = space_.choices.size();
     const std::uint8_t* const allowed =
         choice_masks_.data() +
         i * static_cast<std::size_t>(simulator_.action_choice_count(&simulator_));
-    const std::int32_t* const index = chosen.indices + i * picks;
-    std::uint8_t* const mask = chosen.masks + (i * picks + static_cast<std::size_t>(pick)) * logits;
-    const auto set_picked = [&](std::uint8_t is_picked) {
-        for (int p = 0; p < pick; ++p) {
+    const std::int32_t* const index = chosen.indices + i * sub_actions;
+    std::uint8_t* const mask =
+        chosen.masks + (i * sub_actions + static_cast<std::size_t>(sub_action)) * logits;
+    const auto set_changed = [&](std::uint8_t is_changed) {
+        for (int p = 0; p < sub_action; ++p) {
             const int column = space_.choices[static_cast<std::size_t>(index[p])].column;
-            if (column >= 0) picked_[static_cast<std::size_t>(column)] = is_picked;
+            if (column >= 0) changed_[static_cast<std::size_t>(column)] = is_changed;
         }
     };
-    const auto is_picked = [&](std::size_t c) {
-        return c > 0 && picked_[static_cast<std::size_t>(space_.choices[c].column)] != 0;
+    const auto is_changed = [&](std::size_t c) {
+        return c > 0 && changed_[static_cast<std::size_t>(space_.choices[c].column)] != 0;
     };
-    set_picked(1);
+    set_changed(1);
     bool any = false;
     for (std::size_t c = 0; c < logits; ++c) {
         const Choice& choice = space_.choices[c];
-        mask[c] = (choice.of_mask < 0 || allowed[choice.of_mask]) && !is_picked(c);
+        mask[c] = (choice.of_mask < 0 || allowed[choice.of_mask]) && !is_changed(c);
         any |= mask[c] != 0;
     }
-    for (std::size_t c = 0; c < logits && !any; ++c) mask[c] = !is_picked(c) && (c > 0 || pick > 0);
-    set_picked(0);
+    for (std::size_t c = 0; c < logits && !any; ++c)
+        mask[c] = !is_changed(c) && (c > 0 || sub_action > 0);
+    set_changed(0);
     if (any) return;
     any = std::any_of(mask, mask + logits, [](std::uint8_t allows) { return allows != 0; });
     if (!any) mask[0] = 1;

@@ -83,9 +83,9 @@ class ActionDistribution {
                       const Chosen& chosen);
     void choose_categories(rddl_batch* batch, const float* outputs, int output_row, bool random,
                            const Chosen& chosen);
-    void choose_picks(rddl_batch* batch, const float* outputs, int output_row, bool random,
-                      const Chosen& chosen, float* actions);
-    void mask_pick(std::size_t i, int pick, const Chosen& chosen);
+    void choose_sub_actions(rddl_batch* batch, const float* outputs, int output_row, bool random,
+                            const Chosen& chosen, float* actions);
+    void mask_sub_action(std::size_t i, int sub_action, const Chosen& chosen);
     void mend(rddl_batch* batch, float* actions);
     void write_records(const float* actions);
 
@@ -100,7 +100,7 @@ class ActionDistribution {
     std::vector<std::uint8_t> has_noise_;
     std::vector<std::byte> actions_;          // records
     std::vector<std::uint8_t> choice_masks_;  // as the simulator writes them
-    std::vector<std::uint8_t> picked_;        // columns, while an environment's mask is made
+    std::vector<std::uint8_t> changed_;       // columns, while an environment's mask is made
     RepairBuffers repair_;
     const Stops* stops_ = nullptr;
     std::int64_t repaired_ = 0;

@@ -48,12 +48,12 @@ void add_category_gradient(int count, const Real* logits, const std::uint8_t* ma
     }
 }
 
-// visit(count, logits, mask, index, d) for each category or pick of a sample. The last row may be
-// NULL.
+// visit(count, logits, mask, index, d) for each category or sub-action of a sample. The last row
+// may be NULL.
 template <class Real, class Visit>
 void for_each_category(const ActionSpace& space, const std::int32_t* indices,
                        const std::uint8_t* masks, const Real* logits, Real* d, Visit&& visit) {
-    for (int p = 0; p < space.picks && indices[p] >= 0; ++p)
+    for (int p = 0; p < space.max_sub_actions && indices[p] >= 0; ++p)
         visit(space.logit_count, logits, masks + p * space.logit_count, indices[p], d);
     for (std::size_t h = 0; h < space.categories.size(); ++h) {
         const CategoryHead& head = space.categories[h];
@@ -97,11 +97,12 @@ inline bool is_squashed(const ActionSpace& space, int real) {
     return space.reals[static_cast<std::size_t>(real)].range == RealHead::Range::Squashed;
 }
 
-// A space with picks uses a real only where it was picked.
+// A space with sub-actions uses a real only where one of them chose it.
 inline bool real_is_chosen(const ActionSpace& space, int real, const std::int32_t* indices) {
-    if (space.picks == 0) return true;
+    if (space.max_sub_actions == 0) return true;
     const int choice = space.reals[static_cast<std::size_t>(real)].choice;
-    return std::find(indices, indices + space.picks, choice) != indices + space.picks;
+    return std::find(indices, indices + space.max_sub_actions, choice) !=
+           indices + space.max_sub_actions;
 }
 
 // The logarithm of the probability (density) of what was chosen, and the entropy.

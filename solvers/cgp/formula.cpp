@@ -253,16 +253,16 @@ std::string meaning_of(const ProgramScope& scope, std::size_t output) {
         return fmt::format("   [of those that exclude each other the greatest{} is done]",
                            group->first_value == 0 ? " above 0" : "");
     const int others = other_values(space, column);
-    if (space.picks == 0)
+    if (space.max_sub_actions == 0)
         return others == 1
                    ? "   [above 0 is true]"
                    : fmt::format("   [x from -1 to 1 in {} equal parts, a value each]", others + 1);
     const std::string which = others == 1 ? "above 0" : "|x|";
     const std::string value =
         others == 1 ? "" : fmt::format("; x from -1 to 1 in {} equal parts, a value each", others);
-    return space.picks == 1 ? fmt::format("   [the greatest {} is done{}]", which, value)
-                            : fmt::format("   [the greatest {} are done, at most {}{}]", which,
-                                          space.picks, value);
+    return space.max_sub_actions == 1 ? fmt::format("   [the greatest {} is done{}]", which, value)
+                                      : fmt::format("   [the greatest {} are done, at most {}{}]",
+                                                    which, space.max_sub_actions, value);
 }
 
 std::string identifier(const std::string& name) {

@@ -233,8 +233,8 @@ void write_outputs(const ProgramScope& scope, const double* values, std::ptrdiff
         for (int l = 0; l < head.count; ++l)
             logits[head.first_logit + l] = l == chosen ? 1.0f : 0.0f;
     }
-    // Picks: the greatest number above 0 comes first. A choice with several values is preferred by
-    // the number's size; its value follows from the number.
+    // Sub-actions: the greatest number above 0 comes first. A choice with several values is
+    // preferred by the number's size; its value follows from the number.
     for (std::size_t c = 0; c < space.choices.size(); ++c) {
         const Choice& choice = space.choices[c];
         if (choice.column < 0) {

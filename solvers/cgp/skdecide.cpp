@@ -127,9 +127,10 @@ ProgramScope skdecide_scope(const rddl_simulator& simulator) {
     const auto is_of_one_value = [](const CategoryHead& head) {
         return head.group.empty();
     };
-    if (scope.actions.picks == 0 && std::ranges::all_of(scope.actions.categories, is_of_one_value))
+    if (scope.actions.max_sub_actions == 0 &&
+        std::ranges::all_of(scope.actions.categories, is_of_one_value))
         scope.outputs = scope.actions.names;
-    else if (scope.actions.picks == 1 && scope.actions.reals.empty())
+    else if (scope.actions.max_sub_actions == 1 && scope.actions.reals.empty())
         scope.outputs = {"choice"};
     else
         throw Failure(
@@ -158,7 +159,7 @@ void write_skdecide_outputs(const ProgramScope& scope, const double* values, std
         row[r] = static_cast<float>(values[space.reals[r].column * stride]);
     float* const logits = row + space.reals.size();
     std::fill_n(logits, space.logit_count, 0.0f);
-    if (space.picks > 0) {
+    if (space.max_sub_actions > 0) {
         logits[bin_of_unit(values[0], space.logit_count)] = 1;
         return;
     }

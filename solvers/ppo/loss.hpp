@@ -38,8 +38,8 @@ struct LossSums {
 
 // `outputs` are rows of output_row numbers, as d_outputs; estimates, of values, and their gradient
 // rows of value_row. Logarithms of deviations are rows of deviation_row numbers, or 0: one row for
-// all; so is their gradient, to which is added. Samples with many picks take long: it ends early
-// where `stops` says so.
+// all; so is their gradient, to which is added. Samples with many sub-actions take long: it ends
+// early where `stops` says so.
 template <class Real>
 void add_loss(const ActionSpace& space, const LossWeights& weights, const Samples<Real>& samples,
               int count, const Real* outputs, int output_row, const Real* all_log_deviations,

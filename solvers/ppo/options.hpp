@@ -35,7 +35,7 @@ struct PpoOptions {
     double clip = 0.2;          // of the probability ratio
     double value_clip = 0;      // 0: no clipping
     double value_weight = 0.5;  // of the squared error of values
-    std::optional<double> entropy_weight;  // absent: 0, or 0.01 with a category or picks
+    std::optional<double> entropy_weight;  // absent: 0, or 0.01 with categories or sub-actions
     double gradient_norm = 0.5;            // at most; 0: any
     double kl_stop = 0;     // an update ends when the policy has moved by 1.5 times this; 0: never
     double kl_penalty = 0;  // weight of the divergence in the loss, which adapts itself to

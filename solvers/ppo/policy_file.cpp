@@ -103,13 +103,6 @@ Activation activation_of(const Json& json) {
     throw Failure("its activation is unknown: '" + name + "'");
 }
 
-int version_of(const PpoModel& model) {
-    for (const CategoryHead& head : model.actions.categories)
-        if (!head.group.empty()) return 4;
-    if (model.activation != Activation::Tanh) return 3;
-    return model.recurrent > 0 ? 2 : 1;
-}
-
 std::string text_of(const ActionSpace& space) {
     const std::string reals = array_of(space.reals, [](const RealHead& head) {
         return fmt::format(
@@ -130,9 +123,9 @@ std::string text_of(const ActionSpace& space) {
                            choice.real);
     });
     return fmt::format(
-        R"({{"columns":{},"defaults":{},"reals":{},"categories":{},"picks":{},"choices":{},"masked":{}}})",
+        R"({{"columns":{},"defaults":{},"reals":{},"categories":{},"max_sub_actions":{},"choices":{},"masked":{}}})",
         array_of(space.names, quoted), array(space.defaults.data(), space.defaults.size()), reals,
-        categories, space.picks, choices, space.masked);
+        categories, space.max_sub_actions, choices, space.masked);
 }
 
 std::string text_of(const ObservationSpace& space) {
@@ -288,6 +281,15 @@ Json seen_in(Json space) {
     return space;
 }
 
+// The action space as this version writes it.
+Json acted_in(Json space) {
+    if (const auto old = space.find("picks"); old != space.end()) {
+        space["max_sub_actions"] = *old;
+        space.erase("picks");
+    }
+    return space;
+}
+
 void require_format(const Json& json) {
     if (!json.is_object() || json.value("format", "") != "rddl-policy" ||
         json.value("solver", "") != "ppo")
@@ -317,7 +319,7 @@ void read_spaces(const rddl_simulator& simulator, const Json& json, PpoModel& mo
         if (real.at("range") == "squashed") squash_bounded(model.actions);
     // Compares values, since other programs lay out JSON in their own way.
     if (seen_in(parse_json(text_of(model.observations))) != seen_in(seen.at("space")) ||
-        parse_json(text_of(model.actions)) != json.at("action"))
+        parse_json(text_of(model.actions)) != acted_in(json.at("action")))
         throw Failure(fmt::format(
             "it was learned in {}, whose observations or actions differ from those of {}",
             json.at("instance").get<std::string>(), problem.instance));
@@ -382,7 +384,7 @@ std::string ppo_policy_text(const rddl_simulator& simulator, const PpoModel& mod
     const rddl_problem& problem = *simulator.problem;
     std::string text = fmt::format(
         R"({{"format":"rddl-policy","version":{},"solver":"ppo","domain":"{}","instance":"{}",)",
-        version_of(model), problem.domain, problem.instance);
+        policy_file_version, problem.domain, problem.instance);
     text +=
         fmt::format(R"("observation":{{"space":{},"stack":{},"time":{},"means":{},"factors":{}}},)",
                     text_of(model.observations), model.observations.stack, model.observations.time,

@@ -11,9 +11,9 @@
 
 namespace rddlc::solvers {
 
-// The highest that is read. Files with groups of bools are of version 4, others of networks whose
-// activation is not tanh of 3, others of 2 if they remember, and else of 1.
-inline constexpr int policy_file_version = 4;
+// The version that is written. Versions 1 to 4 are read as well: they have fewer members, and call
+// max_sub_actions picks.
+inline constexpr int policy_file_version = 5;
 
 std::string ppo_policy_text(const rddl_simulator& simulator, const PpoModel& model);
 

@@ -380,8 +380,8 @@ struct PpoTrainer::State {
             std::int32_t* const indices = at(made.indices, s, actions.index_count());
             read_action(actions, at(shown.actions, s, actions.column_count),
                         at(made.numbers, s, actions.real_count()), indices);
-            // After the pick that stops there are none.
-            for (int p = 1; p < actions.picks; ++p)
+            // No sub-action follows the one that stops.
+            for (int p = 1; p < actions.max_sub_actions; ++p)
                 if (indices[p - 1] <= 0) indices[p] = -1;
             if (shown.is_last[s]) future = 0;
             future = factor * shown.rewards[s] + gamma * future;

@@ -19,8 +19,8 @@ class Policy:
             self.file = json.load(file)
         if self.file.get("format") != "rddl-policy" or self.file.get("solver") != "ppo":
             raise ValueError(f"{path} is not a PPO policy")
-        if self.file["version"] > 4:
-            raise ValueError(f"{path} is of version {self.file['version']}, and this reads versions up to 4")
+        if self.file["version"] > 5:
+            raise ValueError(f"{path} is of version {self.file['version']}, and this reads versions up to 5")
         name = self.file.get("activation", "tanh")
         if name not in ACTIVATIONS:
             raise ValueError(f"the activation of {path} is unknown: '{name}'")
@@ -91,7 +91,8 @@ class Policy:
         reals, logits = outputs[:len(action["reals"])], outputs[len(action["reals"]):]
         values = list(action["defaults"])
         likeliest = lambda places: max((p for p in places if allowed(p)), key=lambda p: (logits[p], -p))
-        if action["picks"] == 0:
+        sub_actions = action.get("max_sub_actions", action.get("picks"))  # older files: picks
+        if sub_actions == 0:
             for head, x in zip(action["reals"], reals):
                 values[head["column"]] = self._real(head, x)
             for head in action["categories"]:
@@ -103,12 +104,12 @@ class Policy:
                     changed = head["group"][value - 1]
                     values[changed] = 1 - values[changed]
         changed = set()
-        for _ in range(action["picks"]):
-            pick = likeliest([c for c, choice in enumerate(action["choices"])
+        for _ in range(sub_actions):
+            chosen = likeliest([c for c, choice in enumerate(action["choices"])
                               if c == 0 or choice["column"] not in changed])
-            if pick == 0:
+            if chosen == 0:
                 break
-            choice = action["choices"][pick]
+            choice = action["choices"][chosen]
             changed.add(choice["column"])
             values[choice["column"]] = (self._real(action["reals"][choice["real"]], reals[choice["real"]])
                                         if choice["real"] >= 0 else choice["value"])

@@ -53,8 +53,8 @@ void write_action(const ActionSpace& space, const float* numbers, const std::int
         if (!std::isnan(value))  // otherwise the default: simulators refuse nan in actions
             values[space.reals[r].column] = static_cast<float>(std::clamp(value, -most, most));
     };
-    if (space.picks > 0) {
-        for (int p = 0; p < space.picks && indices[p] > 0; ++p) {
+    if (space.max_sub_actions > 0) {
+        for (int p = 0; p < space.max_sub_actions && indices[p] > 0; ++p) {
             const Choice& choice = space.choices[static_cast<std::size_t>(indices[p])];
             if (choice.real >= 0)
                 set_real(static_cast<std::size_t>(choice.real));
@@ -123,20 +123,20 @@ void read_action(const ActionSpace& space, const float* values, float* numbers,
     for (std::size_t r = 0; r < space.reals.size(); ++r)
         numbers[r] = static_cast<float>(
             number_of_real(space.reals[r], static_cast<double>(values[space.reals[r].column])));
-    if (space.picks == 0) {
+    if (space.max_sub_actions == 0) {
         for (std::size_t h = 0; h < space.categories.size(); ++h)
             indices[h] = index_of_category(space, space.categories[h], values);
         return;
     }
-    int picked = 0;
-    for (std::size_t c = 1; c < space.choices.size() && picked < space.picks; ++c) {
+    int count = 0;
+    for (std::size_t c = 1; c < space.choices.size() && count < space.max_sub_actions; ++c) {
         const Choice& choice = space.choices[c];
         const float value = values[choice.column];
         if (value == space.defaults[static_cast<std::size_t>(choice.column)]) continue;
         if (choice.real < 0 && std::llround(value) != choice.value) continue;
-        indices[picked++] = static_cast<std::int32_t>(c);
+        indices[count++] = static_cast<std::int32_t>(c);
     }
-    std::fill(indices + picked, indices + space.picks, 0);
+    std::fill(indices + count, indices + space.max_sub_actions, 0);
 }
 
 ActionRecords::ActionRecords(const rddl_simulator& simulator)
@@ -149,11 +149,14 @@ ActionRecords::ActionRecords(const rddl_simulator& simulator)
         entries_.push_back(
             {static_cast<std::size_t>(fluent.offset + column.grounding * size), fluent.scalar});
     }
+    defaults_.resize(entries_.size());
+    read(blank_.data(), defaults_.data());
 }
 
 void ActionRecords::write(const float* values, std::byte* record) const {
     std::copy(blank_.begin(), blank_.end(), record);
     for (std::size_t c = 0; c < entries_.size(); ++c) {
+        if (values[c] == defaults_[c]) continue;
         const Entry& entry = entries_[c];
         if (entry.scalar == RDDL_BOOL) {
             record[entry.offset] = static_cast<std::byte>(values[c] > 0.5f);

@@ -140,8 +140,8 @@ std::vector<Choice> simulator_choices(const rddl_simulator& simulator,
     return choices;
 }
 
-void add_picks(ActionSpace& space, const rddl_simulator& simulator,
-               const std::vector<rddl_column>& columns, std::int64_t limit) {
+void add_sub_actions(ActionSpace& space, const rddl_simulator& simulator,
+                     const std::vector<rddl_column>& columns, std::int64_t limit) {
     for (const Choice& choice : simulator_choices(simulator, columns))
         if (choice.column < 0 || is_category(columns[static_cast<std::size_t>(choice.column)]))
             space.choices.push_back(choice);
@@ -154,7 +154,7 @@ void add_picks(ActionSpace& space, const rddl_simulator& simulator,
     }
     space.categories.clear();
     space.logit_count = static_cast<int>(space.choices.size());
-    space.picks = static_cast<int>(std::min<std::int64_t>(limit, space.column_count));
+    space.max_sub_actions = static_cast<int>(std::min<std::int64_t>(limit, space.column_count));
 }
 
 void add_masks_of_categories(ActionSpace& space, const rddl_simulator& simulator,
@@ -195,8 +195,8 @@ void add_groups(ActionSpace& space, const Groups& groups) {
 // Bytes of the masks of one environment in one step: rollouts keep thousands of them.
 constexpr std::int64_t most_mask_bytes = 10'000'000;
 
-bool fit_into_masks(std::int64_t picks, std::int64_t choices) {
-    return choices <= most_mask_bytes / std::max<std::int64_t>(picks, 1);
+bool fit_into_masks(std::int64_t sub_actions, std::int64_t choices) {
+    return choices <= most_mask_bytes / std::max<std::int64_t>(sub_actions, 1);
 }
 
 // The simulator tries each choice for a mask, and checks the whole action each time.
@@ -238,8 +238,8 @@ void require_choices(const rddl_simulator& simulator) {
     const std::int64_t choices = simulator.action_choice_count(&simulator);
     if (limit < count && !fit_into_masks(limit, choices))
         throw Failure(
-            fmt::format("this problem has too many choices for the learners: {} picks in "
-                        "a step, among {} each",
+            fmt::format("this problem has too many choices for the learners: an action has {} "
+                        "sub-actions, with {} choices each",
                         limit, choices));
 }
 
@@ -294,19 +294,19 @@ ActionSpace action_space(const rddl_simulator& simulator, const Stops& stops) {
     const bool is_limited = limit < space.column_count;
     const auto groups =
         bites && limit > 1 ? find_groups(simulator, columns, space, records, stops) : std::nullopt;
-    // Picks also keep to limits and know what is legal; but from the default they do not find
+    // Sub-actions also keep to limits and know what is legal; but from the default they do not find
     // actions where one bool of each group has to change.
     if (groups && !(is_limited && groups->may_be_none)) {
         add_groups(space, *groups);
     } else if (is_limited) {
-        add_picks(space, simulator, columns, limit);
+        add_sub_actions(space, simulator, columns, limit);
     } else if (bites && space.asks && space.reals.empty() && space.categories.size() > 1 &&
                fit_into_masks(limit, choices)) {
-        add_picks(space, simulator, columns, limit);
+        add_sub_actions(space, simulator, columns, limit);
     } else if (bites && space.asks && !space.categories.empty() && fit_into_masks(1, choices)) {
         add_masks_of_categories(space, simulator, columns);
     }
-    space.masked = space.picks > 0 || !space.logit_of_mask.empty();
+    space.masked = space.max_sub_actions > 0 || !space.logit_of_mask.empty();
     space.may_be_illegal = bites;
     return space;
 }

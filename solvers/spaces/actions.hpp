@@ -4,10 +4,10 @@
 // value; bools, objects and ints of few values are categories. Where preconditions allow bools to
 // change one at a time, such as one item for each consumer, one category says which
 // (preconditions.hpp).
-// Either each category is chosen by itself, or the learner picks one change of the default action
-// after the other until it picks to stop: where max-nondef-actions allows few changes, or
-// preconditions couple them in another way. Then each pick knows, from the simulator, which changes
-// are legal after those that were made.
+// Either each category is chosen by itself, or an action is a sequence of sub-actions (an
+// autoregressive action): each of them chooses one change of the default action, or to stop. So it
+// is where max-nondef-actions allows few changes, or preconditions couple them in another way. Each
+// sub-action knows, from the simulator, which changes are legal after those that were made.
 #pragma once
 
 #include "solvers/batches/stops.hpp"
@@ -15,6 +15,7 @@
 
 #include <rddl/simulator.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -32,7 +33,7 @@ struct RealHead {
     // Squashed: the same of tanh(u), which never leaves the bounds.
     double scale = 1;   // of the others: lower + scale * softplus(u), or
     double centre = 0;  // centre + scale * u
-    int choice = -1;    // with picks: the choice that sets it
+    int choice = -1;    // with sub-actions: the choice that sets it
 };
 
 // The values of a bool, an object or an int; or which bool of a group changes.
@@ -57,9 +58,9 @@ struct ActionSpace {
     std::vector<float> defaults;     // column_count
     std::vector<std::string> names;  // column_count, "release(t1)"
     std::vector<RealHead> reals;
-    std::vector<CategoryHead> categories;  // empty with picks
-    std::vector<Choice> choices;           // of picks; the first one stops
-    int picks = 0;                         // at most; 0: each category by itself
+    std::vector<CategoryHead> categories;  // empty with sub-actions
+    std::vector<Choice> choices;           // of each sub-action; the first one stops
+    int max_sub_actions = 0;               // 0: each category is chosen by itself
     int logit_count = 0;
     bool masked = false;          // a mask says which logits are allowed
     bool asks = true;             // the simulator makes it, unless that would take too long
@@ -67,16 +68,20 @@ struct ActionSpace {
     std::vector<int> logit_of_mask;  // of categories, by the simulator's choices: a logit, or -1
 
     int real_count() const { return static_cast<int>(reals.size()); }
-    // Numbers that say what was chosen besides reals: categories, or picks (-1: stopped before).
-    int index_count() const { return picks > 0 ? picks : static_cast<int>(categories.size()); }
+    // Numbers that say what was chosen besides reals: categories, or the choice of each sub-action
+    // (-1: stopped before).
+    int index_count() const {
+        return max_sub_actions > 0 ? max_sub_actions : static_cast<int>(categories.size());
+    }
     // The means of reals, then the logits.
     int output_count() const { return real_count() + logit_count; }
-    // Bytes that say for each logit, and with picks for each pick, whether it was allowed.
-    int mask_size() const { return masked ? logit_count * (picks > 0 ? picks : 1) : 0; }
+    // Bytes that say for each logit, and for each sub-action if there are any, whether it
+    // was allowed.
+    int mask_size() const { return masked ? logit_count * std::max(max_sub_actions, 1) : 0; }
 };
 
 // Throws a Failure where the problem has no actions that differ from each other, or too many
-// choices to pick from. Makes no step.
+// choices. Makes no step.
 void require_choices(const rddl_simulator& simulator);
 
 // Finds the space from the problem, and by a few random steps what its preconditions forbid. Throws
@@ -101,11 +106,12 @@ double real_value(const RealHead& head, double number);
 // Writes the row of column_count action values.
 void write_action(const ActionSpace& space, const float* numbers, const std::int32_t* indices,
                   float* values);
-// The inverse, as far as there is one: picks come in the order of choices, and 0 stops them.
+// The inverse, as far as there is one: sub-actions come in the order of choices, and 0 stops them.
 void read_action(const ActionSpace& space, const float* values, float* numbers,
                  std::int32_t* indices);
 
-// Action rows as records and back. Constant for a problem.
+// Action rows as records and back. Constant for a problem. A value that is the default in the row's
+// precision becomes the default itself: 0.1f is no change of 0.1.
 class ActionRecords {
   public:
     explicit ActionRecords(const rddl_simulator& simulator);
@@ -119,7 +125,8 @@ class ActionRecords {
         rddl_scalar scalar;
     };
     std::vector<Entry> entries_;
-    std::vector<std::byte> blank_;
+    std::vector<std::byte> blank_;  // the default action
+    std::vector<float> defaults_;   // as a row
     std::size_t record_size_;
 };
 

@@ -3,12 +3,14 @@
     test_benchmarks.py RDDL
 """
 
+import argparse
 import contextlib
 import io
 import json
 import sys
 import tempfile
 import unittest
+from collections import Counter
 from pathlib import Path
 from unittest.mock import patch
 
@@ -22,6 +24,7 @@ import compare_jax  # noqa: E402
 import document  # noqa: E402
 import growth  # noqa: E402
 import handwritten  # noqa: E402
+import lanes  # noqa: E402
 import plots  # noqa: E402
 import pyRDDLGym  # noqa: E402
 import segments  # noqa: E402
@@ -204,24 +207,68 @@ class LegalActions(unittest.TestCase):
 
 
 class Handwritten(unittest.TestCase):
+    # benchmarks/handwritten.py compares all: too long for each run of the tests.
+    FEW = ("CrossingTraffic_MDP_ippc2014", "Knapsack_or", "PowerGen_ippc2023")
+
     def test_agrees_with_what_is_emitted(self):
         with tempfile.TemporaryDirectory() as folder:
             build = Path(RDDL).parents[1]
             options = ["--build", build, "--folder", folder, "--seconds", 0.01, "--rounds", 1]
-            status, text = run_program(handwritten.main, *options)
+            status, text = run_program(handwritten.main, *self.FEW, *options)
         self.assertEqual(status, 0, text)  # not if a result differs
-        self.assertEqual(text.count(" 1,024 "), len(handwritten.PROBLEMS), text)
+        self.assertEqual(text.count(" 1,024  "), len(self.FEW), text)
+        self.assertIn("1,024 environments: the geometric mean of the ratios is ", text)
+
+    def test_references_are_there(self):
+        problems = handwritten.REFERENCES
+        for reference in problems.values():
+            self.assertIn(f"struct {reference.struct} {{", (handwritten.FOLDER / f"{reference.header}.hpp").read_text())
+        families = Counter(reference.family for reference in problems.values())
+        self.assertEqual(len(families), 6)
+        self.assertGreaterEqual(min(families.values()), 4)
+
+    def test_means(self):
+        comparisons = [
+            handwritten.Comparison("Pendulum_gym", n, 0.0, 1.0, 1.0, ratio, 1.0)
+            for n, ratio in ((1, 0.4), (1, 1.6), (1024, 1.0))
+        ]
+        self.assertEqual(
+            handwritten.means(comparisons),
+            [
+                "1 environments: the geometric mean of the ratios is 0.80 (aim 0.8), the least 0.40 (aim 0.5); "
+                "1 of 2 are below 0.5",
+                "1,024 environments: the geometric mean of the ratios is 1.00 (aim 0.8), the least 1.00 (aim 0.5); "
+                "0 of 1 are below 0.5",
+            ],
+        )
 
     def test_limits(self):
-        good = handwritten.Comparison("p 1", 1, 1e-12, 8.0, 10.0, 0.8, 0.9)
-        slow = handwritten.Comparison("p 1", 1024, 1e-12, 9.0, 10.0, 0.9, 0.8)
-        wrong = handwritten.Comparison("p 2", 1, float("inf"), 9.0, 1.0, 9.0, 9.0)
-        alone = [good, slow, wrong]
+        good = handwritten.Comparison("Pendulum_gym", 1, 1e-12, 8.0, 10.0, 0.8, 0.9)
+        slow = handwritten.Comparison("Pendulum_gym", 1024, 1e-12, 9.0, 10.0, 0.9, 0.8)
+        wrong = handwritten.Comparison("Knapsack_or", 1, float("inf"), 9.0, 1.0, 9.0, 9.0)
+        not_required = handwritten.Comparison("Knapsack_or", 1024, 0.0, 1.0, 9.0, 0.1, 0.1)
+        alone = [good, slow, wrong, not_required]
         self.assertEqual(
-            handwritten.shortfalls(alone), ["p 1, 1024 environments: the ratio 0.80 is below 0.9"]
+            handwritten.shortfalls(alone), ["Pendulum_gym 0, 1024 environments: the ratio 0.80 is below 0.9"]
         )
         self.assertEqual(
-            handwritten.disagreements(alone), ["p 2, 1 environments: the results differ by inf"]
+            handwritten.disagreements(alone), ["Knapsack_or 0, 1 environments: the results differ by inf"]
+        )
+
+
+class Lanes(unittest.TestCase):
+    def test_the_number_is_that_of_the_emitted_text(self):
+        options = argparse.Namespace(build=Path(RDDL).parents[1])
+        self.assertEqual(lanes.chosen("Navigation_MDP_ippc2011", options), 64)
+        self.assertEqual(lanes.chosen("Knapsack_or", options), 16)
+
+    def test_limits(self):
+        good = lanes.Choice("good", {16: 10.0, 64: 10.2}, 64)
+        bad = lanes.Choice("bad", {16: 10.0, 64: 20.0}, 64)
+        self.assertEqual(lanes.complaints([good] * 9), [])
+        self.assertEqual(
+            lanes.complaints([bad, good]),
+            ["bad: 64 lanes take 2.00 times as long as the best number", "the mean loss is 1.428"],
         )
 
 
@@ -277,7 +324,7 @@ class Document(unittest.TestCase):
 
     def test_sections_of_the_pages_exist(self):
         text = "".join(page.read_text() for page in document.DOCUMENTS)
-        for name in ("comparison", "comparison by problem", "jax", "jax by problem", "handwritten", "growth", "compile cost"):
+        for name in ("comparison", "comparison by problem", "jax", "jax by problem", "handwritten", "lanes", "growth", "compile cost"):
             self.assertEqual(text.count(f"<!-- begin of {name} -->"), 1, name)
             self.assertEqual(text.count(f"<!-- end of {name} -->"), 1, name)
 

@@ -95,6 +95,13 @@ TEST_F(Bench, TellsAsJson) {
 #endif
 }
 
+TEST_F(Bench, TakesTheNumberOfLanes) {
+    const json bench = run_json(std::string(briefly) + "--lanes 64 --batch 64 --threads 1 --json");
+    EXPECT_EQ(bench["lanes"], 64);
+    const std::vector<Shape> expected{{1, 1, 1}, {64, 1, 1}, {64, 64, 1}};
+    EXPECT_EQ(shapes(bench["measurements"]), expected);
+}
+
 TEST_F(Bench, TellsWhenNothingWasCompiled) {
     const std::string command = std::string(briefly) + "--threads 1 --batch 4 ";
     EXPECT_EQ(run(command).status, 0);

@@ -105,7 +105,7 @@ TEST(Plans, AreFitted) {
         distribution.middle(middle);
         for (std::size_t k = 0; k < drawn.numbers.size(); ++k)
             EXPECT_NEAR(middle.numbers[k], drawn.numbers[k], 1e-5);
-        if (space.picks == 0) {
+        if (space.max_sub_actions == 0) {
             EXPECT_EQ(middle.indices, drawn.indices);
         }
     }

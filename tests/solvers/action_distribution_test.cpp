@@ -22,8 +22,8 @@ struct Case {
     ActionSpace space;
 };
 
-ActionSpace space_of(int reals, const std::vector<int>& categories, int picks = 0, int choices = 0,
-                     bool masked = false) {
+ActionSpace space_of(int reals, const std::vector<int>& categories, int sub_actions = 0,
+                     int choices = 0, bool masked = false) {
     ActionSpace space;
     space.reals.resize(static_cast<std::size_t>(reals));
     for (const int count : categories) {
@@ -33,8 +33,8 @@ ActionSpace space_of(int reals, const std::vector<int>& categories, int picks = 
         space.categories.push_back(head);
         space.logit_count += count;
     }
-    if (picks > 0) {
-        space.picks = picks;
+    if (sub_actions > 0) {
+        space.max_sub_actions = sub_actions;
         space.logit_count = choices;
         space.choices.resize(static_cast<std::size_t>(choices));
         for (int c = 1; c < choices; ++c) space.choices[static_cast<std::size_t>(c)].column = c - 1;
@@ -43,7 +43,7 @@ ActionSpace space_of(int reals, const std::vector<int>& categories, int picks = 
             space.choices[static_cast<std::size_t>(choices - reals + r)].real = r;
         }
     }
-    space.masked = masked || picks > 0;
+    space.masked = masked || sub_actions > 0;
     return space;
 }
 
@@ -56,12 +56,12 @@ std::vector<Case> cases() {
             {"categories", space_of(0, {2, 5, 3})},
             {"masked categories", space_of(0, {2, 5, 3}, 0, 0, true)},
             {"mixed", space_of(3, {2, 4})},
-            {"one pick", space_of(0, {}, 1, 6)},
-            {"three picks", space_of(0, {}, 3, 7)},
-            {"picks with reals", space_of(2, {}, 3, 7)}};
+            {"one sub-action", space_of(0, {}, 1, 6)},
+            {"three sub-actions", space_of(0, {}, 3, 7)},
+            {"sub-actions with reals", space_of(2, {}, 3, 7)}};
 }
 
-// A sample of each kind; what was picked is allowed.
+// A sample of each kind; what was chosen is allowed.
 struct Sample {
     std::vector<double> numbers, shifts;
     double spread = 1;
@@ -86,7 +86,7 @@ Sample sample_of(const ActionSpace& space, std::mt19937& random) {
         if (space.masked)
             sample.masks[static_cast<std::size_t>(head.first_logit + sample.indices[h])] = 1;
     }
-    for (int p = 0; p < space.picks; ++p) {
+    for (int p = 0; p < space.max_sub_actions; ++p) {
         const int index =
             p == 2 ? 0
                    : 1 + static_cast<int>(random() % static_cast<unsigned>(space.logit_count - 1));

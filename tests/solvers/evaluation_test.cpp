@@ -67,10 +67,10 @@ TEST(Spaces, AreWhatTheProblemsHave) {
     EXPECT_EQ(reservoir.reals[0].range, RealHead::Range::AboveLower);
     EXPECT_GT(reservoir.reals[0].scale, 1);  // as much as is legal at first
     const ActionSpace network = action_space(*rddl_simulator_network_network_1());
-    EXPECT_EQ(network.picks, 1);
+    EXPECT_EQ(network.max_sub_actions, 1);
     EXPECT_EQ(network.logit_count, network.column_count + 1);
     const ActionSpace delivery = action_space(*rddl_simulator_delivery_delivery_1());
-    EXPECT_EQ(delivery.picks, 2);
+    EXPECT_EQ(delivery.max_sub_actions, 2);
     EXPECT_TRUE(delivery.masked);
 }
 

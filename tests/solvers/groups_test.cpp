@@ -46,7 +46,7 @@ std::vector<float> action_of(const ActionSpace& space, const std::vector<std::in
 
 TEST(Groups, AtMostOneOfThoseOfAnObject) {
     const ActionSpace space = action_space(shop());
-    EXPECT_EQ(space.picks, 0);
+    EXPECT_EQ(space.max_sub_actions, 0);
     EXPECT_FALSE(space.masked);
     ASSERT_EQ(space.categories.size(), 3u);
     EXPECT_EQ(space.logit_count, 3 * 5);
@@ -69,7 +69,7 @@ TEST(Groups, AtMostOneOfThoseOfAnObject) {
 // The group consists of several fluents; lamps are chosen by themselves.
 TEST(Groups, ExactlyOneOfThoseOfAnObject) {
     const ActionSpace space = action_space(museum());
-    EXPECT_EQ(space.picks, 0);
+    EXPECT_EQ(space.max_sub_actions, 0);
     ASSERT_EQ(space.categories.size(), 2u + 3u);
     std::size_t lamps = 0, guards = 0;
     for (const CategoryHead& head : space.categories) {
@@ -97,7 +97,7 @@ TEST(Groups, ExactlyOneOfThoseOfAnObject) {
 TEST(Groups, BesideALimitAndNumbers) {
     const ActionSpace space = action_space(harbour());
     ASSERT_EQ(harbour().problem->max_nondef_actions, 6);
-    EXPECT_EQ(space.picks, 0);
+    EXPECT_EQ(space.max_sub_actions, 0);
     EXPECT_EQ(space.reals.size(), 3u);
     ASSERT_EQ(space.categories.size(), 3u);
     for (const CategoryHead& head : space.categories) {
@@ -155,7 +155,7 @@ TEST(Groups, AnyActionIsRepairedWhereTheDefaultIsIllegal) {
     }
 }
 
-// If preconditions say something else, one change is picked after the other, as before.
+// If preconditions say something else, one change is chosen after the other, as before.
 TEST(Groups, AreNotSeenWhereThereAreNone) {
     for (const rddl_simulator* const simulator : simulators())
         for (const CategoryHead& head : action_space(*simulator).categories)

@@ -271,12 +271,12 @@ class WrongCode : public Verify {
         VerifiedProblem problem = load();
         problem.compile = [&, pass, right = interpreted(problem, problem.plain),
                            wrong = interpreted(problem, altered(problem.plain, 7.5, 7.25))](
-                              const LoadOptions& options, int) {
+                              const LoadOptions& options) {
             ++compilations_;
             return options.passes.without.contains(pass) ? right : wrong;
         };
         problem.engines.push_back({.name = "planted",
-                                   .simulator = problem.compile({}, 1),
+                                   .simulator = problem.compile({}),
                                    .compiled = true,
                                    .reference = 1});
         problem.busy_passes = std::move(busy_passes);

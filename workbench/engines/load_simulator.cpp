@@ -3,6 +3,7 @@
 #include "cache/known_objects.hpp"
 #include "driver/cpp_compiler.hpp"
 #include "driver/extern_headers.hpp"
+#include "driver/shared_object.hpp"
 #include "engines/compiled_simulator.hpp"
 #include "engines/external_library.hpp"
 #include "engines/interpreted_simulator.hpp"
@@ -103,19 +104,20 @@ std::optional<std::string> key_of(const ProblemFiles& files, const LoadOptions& 
         !options.externs.empty())
         return std::nullopt;
     const std::string told =
-        fmt::format("{} {} {} {} {} {}", files.instance_name, static_cast<int>(files.standard),
-                    static_cast<int>(options.real), options.details, options.passes.fast_math,
-                    fmt::join(options.passes.without, ","));
+        fmt::format("{} {} {} {} {} {} {}", files.instance_name, static_cast<int>(files.standard),
+                    static_cast<int>(options.real), options.lanes.value_or(0), options.details,
+                    options.passes.fast_math, fmt::join(options.passes.without, ","));
     return key_of_files(files.all(), told);
 }
 
 CacheOptions cache_options(const ProblemFiles& files, const LoadOptions& options) {
-    return {.what = files.name,
-            .ignore_cache = options.ignore_cache,
-            .quiet = options.quiet,
-            .extern_headers = extern_files(options.externs).headers,
-            .linked_batches = options.real,
-            .on_begin = options.on_compiling};
+    CacheOptions cache{.what = files.name,
+                       .ignore_cache = options.ignore_cache,
+                       .quiet = options.quiet,
+                       .extern_headers = extern_files(options.externs).headers,
+                       .on_begin = options.on_compiling};
+    if (has_prepared_batches(options.lanes)) cache.linked_batches = options.real;
+    return cache;
 }
 
 // The compiled simulator of an optimised program.
@@ -202,6 +204,7 @@ CompileOptions front_end_options(const ProblemFiles& files, Stage last,
     front_end.extern_headers = extern_files(options.externs).headers;
     front_end.passes = options.passes;
     front_end.details = options.details;
+    front_end.lane_count = options.lanes;
     return front_end;
 }
 

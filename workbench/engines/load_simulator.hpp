@@ -38,6 +38,7 @@ struct LoadOptions {
     std::vector<std::filesystem::path> externs;
     PassOptions passes;
     RealType real = RealType::Double;  // of the compiled engine
+    std::optional<int> lanes;          // CompileOptions::lane_count
     bool details = false;              // get_interm, and objects in explain_violation
     bool remembers = false;            // for load_known
 };

@@ -34,8 +34,9 @@ std::optional<std::string> find_avoiding_pass(const VerifiedProblem& problem,
         if (Clock::now() > end || is_interrupted()) break;
         LoadOptions load = problem.load;
         load.passes.without.insert(pass);
+        load.lanes = std::max(1, wrong.simulator->lane_count);
         VerifiedEngine other = wrong;
-        other.simulator = problem.compile(load, std::max(1, wrong.simulator->lane_count));
+        other.simulator = problem.compile(load);
         if (agrees(other)) return pass;
     }
     return std::nullopt;

@@ -1,6 +1,7 @@
 #include "verify/verified_problem.hpp"
 
 #include "driver/extern_headers.hpp"
+#include "driver/shared_object.hpp"
 #include "engines/compiled_simulator.hpp"
 #include "engines/interpreted_simulator.hpp"
 #include "problems/front_end.hpp"
@@ -61,19 +62,18 @@ void add_interpreters(VerifiedProblem& problem) {
                                .tolerance = tolerance});
 }
 
-Simulator compiled_with(const ProblemFiles& files, const LoadOptions& load, int lanes) {
-    CompileOptions options = front_end_options(files, Stage::Emit, load);
-    options.lane_count = lanes;
+Simulator compiled_with(const ProblemFiles& files, const LoadOptions& load) {
+    const CompileOptions options = front_end_options(files, Stage::Emit, load);
     const Compilation compilation = compile_or_give_up(options);
-    // The code that is compiled once for all simulators has batches of the usual packs.
-    const bool usual = lanes == 1 || lanes == CompileOptions{}.lane_count;
     CacheOptions cache{files.name, load.ignore_cache, load.quiet, options.extern_headers};
-    if (usual) cache.linked_batches = options.real;
+    if (has_prepared_batches(load.lanes)) cache.linked_batches = options.real;
     return compiled_simulator(compilation.text, cache).simulator;
 }
 
-void add_compiled(VerifiedProblem& problem, int lanes, bool first) {
-    const Simulator simulator = problem.compile(problem.load, lanes);
+void add_compiled(VerifiedProblem& problem, std::optional<int> lanes, bool first) {
+    LoadOptions load = problem.load;
+    load.lanes = lanes;
+    const Simulator simulator = problem.compile(load);
     const auto add = [&](std::string name, bool one_by_one, int lane_count) {
         problem.engines.push_back(
             {std::move(name), simulator, one_by_one, lane_count, true, optimised, Tolerance{}});
@@ -126,9 +126,10 @@ VerifiedProblem load_for_verification(const ProblemFiles& files, const LoadOptio
     problem.invalid = invalid_program(problem.plain, problem.pipeline);
     if (problem.invalid) return problem;
     add_interpreters(problem);
-    if (choice.compiled)
-        for (const int lanes : choice.lanes)
-            add_compiled(problem, lanes, lanes == choice.lanes.front());
+    if (!choice.compiled) return problem;
+    if (choice.lanes.empty()) add_compiled(problem, std::nullopt, true);
+    for (const int lanes : choice.lanes)
+        add_compiled(problem, lanes, lanes == choice.lanes.front());
     return problem;
 }
 

@@ -15,8 +15,8 @@
 
 namespace rddlc::workbench {
 
-// The compiled simulator of other options, with packs of so many environments.
-using CompileAgain = std::function<Simulator(const LoadOptions& load, int lanes)>;
+// The compiled simulator of other options.
+using CompileAgain = std::function<Simulator(const LoadOptions& load)>;
 
 struct VerifiedProblem {
     ProblemFiles files;
@@ -38,7 +38,8 @@ struct VerifiedProblem {
 
 struct EngineChoice {
     bool compiled = true;
-    std::vector<int> lanes = {16};  // a compilation for each
+    // A compilation for each; empty: one with as many as suit the problem.
+    std::vector<int> lanes = {};
 };
 
 // Prints the diagnostics and throws Diagnosed if there are errors.

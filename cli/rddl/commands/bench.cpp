@@ -76,6 +76,10 @@ Command bench_command() {
     add_number_option(command, "--threads", "T", "Most threads to try (one per core)",
                       options->settings.threads, 1, most_threads);
     add_engine_options(command, options->load);
+    add_option(command, "--lanes", "N",
+               "Environments in a pack: 8, 16, 32, 64, or 1 (as many as suit the problem)",
+               [options](const std::string& count) { options->load.lanes = std::stoi(count); })
+        .choices = {"1", "8", "16", "32", "64"};
     add_peer_options(command, *options);
     add_flag(command, "--json", "Print the figures as JSON", options->json);
     command.run = [options] {

@@ -71,13 +71,14 @@ void add_compared_options(Command& command, VerifyOptions& options) {
         "compiler",
         [&options](const std::string& name) { options.engines.compiled = name == "compiled"; })
         .choices = {"compiled", "interpreter"};
-    const auto add_lanes = [&options, is_first = true](const std::string& count) mutable {
-        if (is_first) options.engines.lanes.clear();
-        is_first = false;
+    const auto add_lanes = [&options](const std::string& count) {
         options.engines.lanes.push_back(std::stoi(count));
     };
-    add_list_option(command, "--lanes", "N,...",
-                    "Environments in a pack; each number is compiled by itself (16)", add_lanes)
+    add_list_option(
+        command, "--lanes", "N,...",
+        "Environments in a pack; each number is compiled by itself (as many as suit the "
+        "problem)",
+        add_lanes)
         .choices = {"1", "8", "16", "32", "64"};
     add_flag(command, "--no-pyrddlgym", "Leave out pyRDDLGym, which is compared if it is installed",
              [&options](const std::string&) { options.settings.pyrddlgym = false; });

@@ -24,8 +24,8 @@ class ActionPlan:
     """The categories and numbers that a learner chooses, and the columns of action values that they
     set.
 
-    Without picks there is a category for each bool, object or int of few values, in declaration
-    order. With picks, where max-nondef-actions lets few values change, each category is a change
+    Without sub-actions there is a category for each bool, object or int of few values, in declaration
+    order. With sub-actions, where max-nondef-actions lets few values change, each category is a change
     of the default action: of a bool, in its order, to its other value; of an object or an int to
     each other value; of a number to the one that is chosen for it. The last category changes
     nothing.
@@ -35,9 +35,9 @@ class ActionPlan:
     numbers: list[Column]
     number_columns: Array  # (numbers,)
     category_counts: list[int]
-    picks: int  # 0: each category sets a value of its own
-    columns: Array  # of each category, or with picks of each change; -1: no column
-    values: Array  # the least of each category, or with picks that of each change
+    max_sub_actions: int  # 0: each category sets a value of its own
+    columns: Array  # of each category, or of each change; -1: no column
+    values: Array  # the least of each category, or that of each change
 
     def check_categories(self, categories: Array) -> None:
         """Raises ActionError for one that does not exist. categories: (n, categories)"""
@@ -53,24 +53,24 @@ class ActionPlan:
 
     def categories_of(self, values: Array) -> Array:
         """(n, categories) that write rows of values: the inverse of `write`."""
-        if not self.picks:
+        if not self.max_sub_actions:
             return values[:, self.columns].astype(np.int64) - self.values.astype(np.int64)
         nothing = len(self.columns) - 1
-        picks = np.full((len(values), self.picks), nothing)
+        chosen = np.full((len(values), self.max_sub_actions), nothing)
         numbers = set(self.number_columns.tolist())
         category_of = {
             (column, None if column in numbers else value): category
             for category, (column, value) in enumerate(zip(self.columns.tolist(), self.values.tolist()))
         }
         for row, column in np.argwhere(values != self.defaults):
-            free = int(np.argmax(picks[row] == nothing))
+            free = int(np.argmax(chosen[row] == nothing))
             value = None if column in numbers else values[row, column].item()
-            picks[row, free] = category_of[int(column), value]
-        return picks
+            chosen[row, free] = category_of[int(column), value]
+        return chosen
 
     def write(self, categories: Array, numbers: Array, values: Array) -> None:
         """Into rows of action values: (n, columns)."""
-        if not self.picks:
+        if not self.max_sub_actions:
             if len(self.columns):
                 values[:, _as_slice(self.columns)] = categories + self.values
             if self.numbers:
@@ -78,10 +78,10 @@ class ActionPlan:
             return
         values[:] = self.defaults
         rows = np.arange(len(values))
-        for pick in categories.T:
-            changed = self.columns[pick]
+        for change in categories.T:
+            changed = self.columns[change]
             acts = changed >= 0
-            values[rows[acts], changed[acts]] = self.values[pick][acts]
+            values[rows[acts], changed[acts]] = self.values[change][acts]
         for place, column in enumerate(self.number_columns):
             chosen = (self.columns[categories] == column).any(axis=1)
             values[chosen, column] = numbers[chosen, place]
@@ -156,7 +156,7 @@ def _plan_of_values(
         numbers=[columns[index] for index in numbers],
         number_columns=np.array(numbers, np.int64),
         category_counts=[columns[index].category_count or 0 for index in categories],
-        picks=0,
+        max_sub_actions=0,
         columns=np.array(categories, np.int64),
         values=np.array([int(columns[index].bounds[0]) for index in categories], np.int64),
     )
@@ -180,7 +180,7 @@ def _plan_of_picks(
         numbers=[columns[index] for index in numbers],
         number_columns=np.array(numbers, np.int64),
         category_counts=[len(changes)] * limit,
-        picks=limit,
+        max_sub_actions=limit,
         columns=np.array([column for column, _ in changes], np.int64),
         values=np.array([value for _, value in changes]),
     )

@@ -47,7 +47,7 @@ class ChoiceActions:
         if plan.category_counts and plan.numbers:
             return None
         columns = plan.number_columns if plan.numbers else plan.columns
-        if plan.picks:
+        if plan.max_sub_actions:
             limits = [(0.0, float(count - 1), 0.0) for count in plan.category_counts]
             changes = plan.columns.tolist(), plan.values.tolist(), plan.defaults.tolist()
             return _native.RowWriter(self._batch, 0, limits, categories=True, changes=changes)
@@ -104,7 +104,7 @@ class ChoiceActions:
         plan = self.plan
         categories = (
             np.array(plan.category_counts) - 1
-            if plan.picks
+            if plan.max_sub_actions
             else plan.defaults[plan.columns].astype(np.int64) - plan.values
         )
         return self._packed(categories, plan.defaults[plan.number_columns])

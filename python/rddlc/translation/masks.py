@@ -71,8 +71,8 @@ class ActionMasks:
             return self._entries_of_dictionary()
         plan = self._plan
         changes = [(int(column), int(value)) for column, value in zip(plan.columns, plan.values)]
-        if plan.picks:
-            return [changes] * plan.picks
+        if plan.max_sub_actions:
+            return [changes] * plan.max_sub_actions
         return [
             [(column, least + k) for k in range(count)]
             for (column, least), count in zip(changes, plan.category_counts)

@@ -160,10 +160,10 @@ class Functions {
                      problem.observation_size, engine.observation_size());
     }
 
-    // Packs wait for their slowest lane and have more to start and to end, so one environment is
-    // stepped alone.
+    // Packs wait for their slowest lane and have more to start and to end, and lanes without an
+    // environment are computed too. So a few environments are stepped one after the other.
     static bool wants_packs(std::int32_t lane_count, std::int64_t environment_count) {
-        return lane_count == 0 ? environment_count > 1 : lane_count > 1;
+        return lane_count == 0 ? environment_count >= std::max(2, L::width / 4) : lane_count > 1;
     }
 
     static Site site_of(const Parts& parts, const FaultRecord& fault) {

@@ -126,6 +126,18 @@ RDDL_INLINE BitColumns lanes_of(const Mask<n>* masks, int count, int lane) {
         return simd::reinterpret<BitColumns>(
             _mm512_maskz_inserti64x4(0xFF, _mm512_castsi256_si512(half(0)), half(32), 1));
     }
+    if constexpr (n == 64) {
+        // A byte of each of 8 masks.
+        const auto bytes_of = [&](int first) RDDL_INLINE_LAMBDA {
+            const __m512i bits =
+                _mm512_maskz_loadu_epi64(static_cast<std::uint8_t>(there >> first), masks + first);
+            return _mm_cvtsi128_si64(_mm512_maskz_cvtepi64_epi8(
+                0xFF, _mm512_maskz_srli_epi64(0xFF, bits, static_cast<unsigned>(lane))));
+        };
+        return simd::reinterpret<BitColumns>(
+            _mm512_set_epi64(bytes_of(56), bytes_of(48), bytes_of(40), bytes_of(32), bytes_of(24),
+                             bytes_of(16), bytes_of(8), bytes_of(0)));
+    }
 #endif
     BitColumns columns{};
     for (int k = 0; k < count; ++k)
@@ -158,6 +170,20 @@ RDDL_INLINE void store_masks(const std::array<BitColumns, n / 8>& columns, int c
                    _mm512_maskz_extracti64x4_epi64(0xF, high, 0));
         store_half(32, _mm512_maskz_extracti64x4_epi64(0xF, low, 1),
                    _mm512_maskz_extracti64x4_epi64(0xF, high, 1));
+        return;
+    }
+    if constexpr (n == 64) {
+        for (int first = 0; first < count; first += 8) {
+            __m512i bits = _mm512_setzero_si512();
+            for (unsigned i = 0; i < 8; ++i) {
+                const __m128i bytes = _mm_loadl_epi64(
+                    reinterpret_cast<const __m128i*>(&columns[i][static_cast<std::size_t>(first)]));
+                bits |=
+                    _mm512_maskz_slli_epi64(0xFF, _mm512_maskz_cvtepu8_epi64(0xFF, bytes), 8 * i);
+            }
+            _mm512_mask_storeu_epi64(masks + first, static_cast<std::uint8_t>(there >> first),
+                                     bits);
+        }
         return;
     }
 #endif

@@ -513,6 +513,20 @@ Mask<n> gather(const bool* elements, const Lanes<std::int64_t, n>& indices) {
             indices));
     }
 }
+// The same from the first column of a table of few rows of bools, `distance` bools apart.
+inline constexpr std::int64_t most_rows_of_column = 16;
+template <std::int64_t rows, std::int64_t distance, int n>
+RDDL_INLINE Mask<n> gather_from_column(const bool* elements,
+                                       const Lanes<std::int64_t, n>& indices) {
+    std::uint64_t bits = 0;
+    for (std::int64_t row = 0; row < rows; ++row)
+        bits |= std::uint64_t{elements[row * distance]} << row;
+    return lowest_bits(Lanes<std::int64_t, n>::each(
+        [bits](simd::Ints place) {
+            return (simd::Ints)((simd::Words{} + bits) >> (simd::Words)place);
+        },
+        indices));
+}
 template <std::int64_t count, int n>
 RDDL_INLINE auto gather(const std::int64_t* elements, const Lanes<std::int64_t, n>& indices) {
     const auto* const reals = reinterpret_cast<const double*>(elements);
@@ -561,6 +575,14 @@ Mask<n> gather(const Mask<n>* elements, const Lanes<std::int64_t, n>& indices) {
     return lowest_bits(bits);
 }
 
+// Only the first index differs between the lanes, of a table of bools with more elements than a
+// word has bits, but with few rows.
+template <class Array, class... Rest>
+inline constexpr bool is_read_by_column =
+    std::is_same_v<typename Nested<Array>::Element, bool>&& Nested<Array>::count > 64 &&
+    std::tuple_size_v<Array> <= most_rows_of_column && sizeof...(Rest) > 0 &&
+    (std::is_integral_v<Rest> && ...);
+
 }  // namespace detail
 
 // An element of a nested std::array; at least one index differs between the lanes.
@@ -571,10 +593,16 @@ requires SomePack<First, Rest...> RDDL_INLINE auto at(const Array& array, const 
         return at(array[static_cast<std::size_t>(first)], rest...);
     } else {
         constexpr int n = std::max({detail::pack_width<First>, detail::pack_width<Rest>...});
-        const auto place = detail::place_in<Array, Lanes<std::int64_t, n>>(first, rest...);
         using Nested = detail::Nested<Array>;
-        return detail::gather<Nested::count>(
-            reinterpret_cast<const typename Nested::Element*>(&array), place);
+        const auto* const elements = reinterpret_cast<const typename Nested::Element*>(&array);
+        if constexpr (detail::is_read_by_column<Array, Rest...>) {
+            using Row = typename Array::value_type;
+            return detail::gather_from_column<std::tuple_size_v<Array>, detail::Nested<Row>::count>(
+                elements + detail::place_in<Row, std::int64_t>(rest...), first);
+        } else {
+            const auto place = detail::place_in<Array, Lanes<std::int64_t, n>>(first, rest...);
+            return detail::gather<Nested::count>(elements, place);
+        }
     }
 }
 

@@ -10,9 +10,11 @@
 #include <cstdint>
 #include <vector>
 
-// The tables of 16 lanes are in batches.cpp.
+// The tables of 16 and 64 lanes are in batches.cpp.
 extern template rddl_simulator rddl::table_of(const SimulatorParts<Pack<16>>&);
+extern template rddl_simulator rddl::table_of(const SimulatorParts<Pack<64>>&);
 extern template rddl_simulator rddl::table_of(const SimulatorParts<Pack<16, float>>&);
+extern template rddl_simulator rddl::table_of(const SimulatorParts<Pack<64, float>>&);
 
 namespace tiny {
 namespace {

@@ -293,5 +293,25 @@ TEST(Packs, ReadTablesInEachLane) {
     expect_elements_of_scalars<513>();
 }
 
+template <std::size_t rows>
+void expect_columns_of_scalars() {
+    std::array<std::array<std::array<bool, 5>, 6>, rows> table;
+    for (std::size_t i = 0; i < rows * 30; ++i) table[i / 30][i / 5 % 6][i % 5] = i * i % 7 < 3;
+    std::vector<std::int64_t> indices = ints(11);
+    for (std::int64_t& index : indices) index = floor_mod(index, std::int64_t{rows});
+    for (const std::int64_t x : {0, 3, 5})
+        for (const std::int64_t y : {0, 4})
+            expect_bits_of_scalars(
+                "at", [&](auto i) { return at(table, i, x, y); }, indices);
+}
+
+// Few rows: a column is the bits of a number. Two rows of 30 have no more than a word.
+TEST(Packs, ReadColumnsInEachLane) {
+    expect_columns_of_scalars<2>();
+    expect_columns_of_scalars<3>();
+    expect_columns_of_scalars<16>();
+    expect_columns_of_scalars<17>();
+}
+
 }  // namespace
 }  // namespace rddl

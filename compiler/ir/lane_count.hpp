@@ -1,0 +1,20 @@
+// The number of environments in a pack, if the user does not choose it.
+#pragma once
+
+#include "ir/ir.hpp"
+
+#include <array>
+
+namespace rddlc::ir {
+
+// The numbers that suitable_lane_count returns. rddl/batches.cpp has the code for them.
+inline constexpr std::array suitable_lane_counts = {16, 64};
+
+// The bools of a pack are the bits of one number, so a connective takes the same time for 64
+// environments as for 16. Ints and reals take as many registers as their lanes need, and those of
+// 64 lanes do not stay in registers. So a pack has 64 lanes where steps compute with bools nearly
+// alone, if the nearest cache holds the action records of 64 environments. Draws do not count: as a
+// rule few lanes need them. docs/lanes.md has the measurements.
+int suitable_lane_count(const Program& program);
+
+}  // namespace rddlc::ir

@@ -1,0 +1,71 @@
+#include "ir/lane_count.hpp"
+
+#include "ir/cost_model.hpp"
+#include "programs.hpp"
+
+#include <gtest/gtest.h>
+
+namespace rddlc::ir {
+namespace {
+
+struct LaneCountTest : testing::Test {
+    // running' = running ^ ~running | ..., so many times over.
+    NodeId connectives(int count) {
+        NodeId value = w.at(w.running, w.c);
+        for (int k = 0; k < count; ++k)
+            value = w.apply(k % 2 == 0 ? Operator::And : Operator::Or, value,
+                            w.apply(Operator::Not, w.at(k % 3 == 0 ? w.seen : w.reboot, w.c)));
+        return value;
+    }
+    NodeId is_high() { return w.apply(Operator::Greater, w.load(w.level), w.real(4)); }
+    int lanes_of(std::vector<Definition> step) {
+        w.program.step = std::move(step);
+        return suitable_lane_count(w.program);
+    }
+    Workbench w;
+};
+
+TEST_F(LaneCountTest, BoolsAloneTakeManyLanes) {
+    EXPECT_EQ(lanes_of({w.fill(w.next_running, w.c, connectives(3))}), 64);
+}
+
+TEST_F(LaneCountTest, NumbersTakeFew) {
+    EXPECT_EQ(lanes_of({w.assign(w.next_level, w.apply(Operator::Exp, w.load(w.level)))}), 16);
+    EXPECT_EQ(lanes_of({}), 16);
+}
+
+TEST_F(LaneCountTest, AFewNumbersDoNotMatterAmongManyBools) {
+    const auto with_bools = [&](int count) {
+        return lanes_of({w.fill(w.next_running, w.c, connectives(count)),
+                         w.fill(w.next_running, w.d, is_high())});
+    };
+    EXPECT_EQ(with_bools(2), 16);
+    EXPECT_EQ(with_bools(60), 64);
+}
+
+TEST_F(LaneCountTest, DrawsDoNotCount) {
+    const NodeId value = w.apply(Operator::And, w.at(w.running, w.c), w.bernoulli(w.real(0.5)));
+    EXPECT_EQ(lanes_of({w.fill(w.next_running, w.c, value)}), 64);
+    w.program.step = {w.fill(w.next_running, w.c, value)};
+    EXPECT_EQ(pack_cost_of_step(w.program).draws, 3 * draw_cost);
+}
+
+TEST_F(LaneCountTest, ActionsOfManyLanesMustFitIntoTheCache) {
+    const std::vector<Definition> step = {w.fill(w.next_running, w.c, connectives(3))};
+    w.program.buffers[w.reboot.index].shape = {512};
+    EXPECT_EQ(lanes_of(step), 64);
+    w.program.buffers[w.reboot.index].shape = {513};
+    EXPECT_EQ(lanes_of(step), 16);
+}
+
+// Both costs count the same work, but loops over several objects at once.
+TEST_F(LaneCountTest, ThePartsOfAPacksCostAreTheWhole) {
+    w.program.step = {w.fill(w.next_running, w.c, connectives(3)),
+                      w.assign(w.next_level, w.apply(Operator::Exp, w.load(w.level)))};
+    const PackCost cost = pack_cost_of_step(w.program);
+    EXPECT_EQ(step_cost + cost.block + cost.numbers + cost.draws, cost_of_step(w.program));
+    EXPECT_EQ(cost.numbers, 1 + elementary_cost + 1);
+}
+
+}  // namespace
+}  // namespace rddlc::ir
