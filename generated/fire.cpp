@@ -180,7 +180,7 @@ struct Simulator {
     template <class L>
     static void set_burning(const State<L>& state, const Action<L>& action,
                             const Scratch<L>& scratch, State<L>& next, rddl::Context<L>& context) {
-        rddl::for_each_object(context, xpos_count * ypos_count, [&](auto&, auto c_r) {
+        rddl::for_each_object_in_words(context, xpos_count * ypos_count, [&](auto&, auto c_r) {
             const auto condition =
                 rddl::at(state.burning, c_r) && !rddl::at(action.douse, c_r) &&
                 !rddl::at(next.bare, c_r);

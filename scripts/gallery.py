@@ -105,8 +105,8 @@ def draw_scenes(rddl: str) -> None:
 
 INTRODUCTION = """# Gallery
 
-One picture for each visualizer, of episodes of random actions ([pictures](pictures.md) says how to make them). `scripts/gallery.py`
-makes this page and its pictures; `tests/render` compares them.
+One picture for each visualizer, of episodes of random actions ([pictures](pictures.md) says how to
+make them). `scripts/gallery.py` makes this page and its pictures; `tests/render` compares them.
 """
 
 

@@ -14,7 +14,7 @@ if ! cmp --silent scripts/site/requirements.txt "$folder/venv/installed.txt"; th
 fi
 "$folder/venv/bin/python" scripts/site/make_pages.py --bin build/bin "$folder"
 export PYTHONPATH=scripts/site NO_MKDOCS_2_WARNING=1
-"$folder/venv/bin/mkdocs" build --strict --quiet --clean --config-file "$folder/mkdocs.yml"
+"$folder/venv/bin/python" -m mkdocs build --strict --quiet --clean --config-file "$folder/mkdocs.yml"
 echo "the site: $folder/html/index.html"
 if [ "${1:-}" = --serve ]; then
     exec "$folder/venv/bin/python" -m http.server --bind 127.0.0.1 --directory "$folder/html" 8000

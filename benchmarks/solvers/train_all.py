@@ -100,7 +100,7 @@ def table(results):
 def jobs_of(problems, done, arguments):
     """The instances that are to be done, as (problem, instance)."""
     for problem in problems:
-        if arguments.context and problem["context"] != arguments.context:
+        if arguments.context and problem["context"] not in arguments.context:
             continue
         if arguments.only and arguments.only not in problem["name"]:
             continue
@@ -122,7 +122,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
     parser.add_argument("--rddl", default=ROOT / "build/bin/rddl")
     parser.add_argument("--out", type=Path, required=True)
-    parser.add_argument("--context", help="only problems of this context, such as ippc2023")
+    parser.add_argument("--context", nargs="*", help="only problems of these contexts, such as ippc2023")
     parser.add_argument("--only", help="only problems whose names contain this")
     parser.add_argument("--instances", type=int, default=1, help="so many of each problem")
     parser.add_argument("--without", default=[], nargs="*", help="instances that are left out: 0 is not one of the competition's")

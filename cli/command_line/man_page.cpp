@@ -1,4 +1,4 @@
-// The manual page of a program, made from its options as --help is.
+// The manual page of a program, made from its options as --help is, in the same parts.
 #include "command_line/command_line.hpp"
 
 #include <fmt/format.h>
@@ -62,7 +62,10 @@ std::string synopsis(const Command& command, const std::string& full_name) {
 
 std::string options_text(const std::vector<Option>& options) {
     std::string text;
-    for (const Option& option : options) text += item(head_of(option), option.explanation);
+    for (const Option& option : options) {
+        if (!option.title.empty()) text += ".PP\n" + bold(option.title + ":") + "\n";
+        text += item(head_of(option), option.explanation);
+    }
     return text;
 }
 

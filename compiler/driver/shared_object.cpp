@@ -42,19 +42,21 @@ bool is_filled(const fs::path& file) {
     return fs::file_size(file, missing) > 0 && !missing;
 }
 
-// The greatest level of x86-64 that this machine's processor has; null if it is another one.
-const char* processor_level() {
+// The flags for the greatest level of x86-64 that this machine's processor has, and for what it has
+// beyond the greatest one; none if it is another processor.
+std::vector<std::string> processor_flags() {
 #ifdef __x86_64__
     switch (rddl::allowed_instruction_set()) {
         case rddl::InstructionSet::Sse2:
-            return "x86-64";
+            return {"-march=x86-64"};
         case rddl::InstructionSet::Avx2:
-            return "x86-64-v3";
+            return {"-march=x86-64-v3"};
         case rddl::InstructionSet::Avx512:
-            return "x86-64-v4";
+            if (!rddl::processor_permutes_bytes()) return {"-march=x86-64-v4"};
+            return {"-march=x86-64-v4", "-mavx512vbmi", "-mavx512vpopcntdq"};
     }
 #endif
-    return nullptr;
+    return {};
 }
 
 // The diagnostic with the beginning of the compiler's messages.
@@ -94,8 +96,10 @@ std::vector<std::string> compiler_command(Processors processors, const std::stop
     const std::vector<std::string> flags = simulator_flags(command, stop);
     command.insert(command.end(), {"-std=c++20", "-fPIC", "-fvisibility=hidden"});
     command.insert(command.end(), flags.begin(), flags.end());
-    const char* const level = processors == Processors::LikeThis ? processor_level() : nullptr;
-    if (level) command.push_back("-march=" + std::string(level));
+    if (processors == Processors::LikeThis) {
+        const std::vector<std::string> own = processor_flags();
+        command.insert(command.end(), own.begin(), own.end());
+    }
     if (const auto folder = runtime_include_folder()) command.push_back("-I" + folder->string());
     return command;
 }

@@ -42,7 +42,7 @@ class BlockCost {
     BlockCost(const Program& program, std::span<const Properties> properties)
         : program_(program), properties_(properties) {}
     void add_body(const Block& body) {
-        collect_stores(body, 0);
+        collect_stores(body, outside);
         add(body, outside);
     }
     void add_value(NodeId id) { add(id, outside); }
@@ -61,14 +61,16 @@ class BlockCost {
     // The levels of the loops that a value depends on, as bits.
     using Levels = std::uint64_t;
 
-    // A table that is filled in loops is read inside of them, if it is read there.
-    void collect_stores(const Block& block, std::size_t level) {
+    // A table that is filled in loops changes for what reads it inside of them.
+    void collect_stores(const Block& block, Place place) {
         for (const Statement& statement : block) {
             match(
                 statement.form, [](const Let&) {},
-                [&](const Store& store) { stored_[store.target] = level; },
-                [&](const Loop& loop) { collect_stores(loop.body, level + 1); },
-                [&](const Call& call) { stored_[call.output.buffer] = level; });
+                [&](const Store& store) { stored_[store.target] = place; },
+                [&](const Loop& loop) {
+                    collect_stores(loop.body, inside(place, loop.variable, times_of(loop)));
+                },
+                [&](const Call& call) { stored_[call.output.buffer] = place; });
         }
     }
 
@@ -86,14 +88,16 @@ class BlockCost {
         pay(1, place, kind_of_value(store.value));
     }
     void add(const Loop& loop, Place place) {
-        const double size = size_of(program_, loop.variable);
+        const double times = times_of(loop);
+        pay(times, place, &PackCost::block);
+        add(loop.body, inside(place, loop.variable, times));
+    }
+    double times_of(const Loop& loop) const {
         const double at_once = !properties_.empty()   ? 1
                                : loop.as_words        ? bools_at_once
                                : loop.several_at_once ? objects_at_once
                                                       : 1;
-        const double times = std::ceil(size / at_once);
-        pay(times, place, &PackCost::block);
-        add(loop.body, inside(place, loop.variable, times));
+        return std::ceil(size_of(program_, loop.variable) / at_once);
     }
     // It reads its tables and fills its output.
     void add(const Call& call, Place place) {
@@ -145,8 +149,16 @@ class BlockCost {
         const auto buffer = buffer_read_by(node);
         const auto stored = buffer ? stored_.find(*buffer) : stored_.end();
         if (stored == stored_.end()) return 0;
-        const std::size_t common = std::min(stored->second, arounds_[place].level);
+        const std::size_t common = common_level(stored->second, place);
         return common == 0 ? 0 : bit_of(common);
+    }
+    // The level of the innermost loop around both places.
+    std::size_t common_level(Place a, Place b) const {
+        while (a != b) {
+            Place& inner = arounds_[a].level < arounds_[b].level ? b : a;
+            inner = arounds_[inner].outer;
+        }
+        return arounds_[a].level;
     }
     Levels level_of(VariableId variable, Place place) const {
         for (; place != outside; place = arounds_[place].outer)
@@ -198,7 +210,7 @@ class BlockCost {
     std::map<std::pair<NodeId, Place>, Levels> levels_;
     std::set<std::pair<NodeId, Place>> paid_;
     std::map<LocalId, Levels> levels_of_local_;
-    std::map<BufferId, std::size_t> stored_;  // the level of its stores
+    std::map<BufferId, Place> stored_;  // of its stores
     PackCost total_;
 };
 

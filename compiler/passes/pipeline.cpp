@@ -2,6 +2,7 @@
 
 #include "passes/aggregations/count_bits.hpp"
 #include "passes/aggregations/count_bools.hpp"
+#include "passes/aggregations/draw_over_objects.hpp"
 #include "passes/aggregations/factor_aggregations.hpp"
 #include "passes/aggregations/fuse_interm_fluents.hpp"
 #include "passes/aggregations/hoist_aggregations.hpp"
@@ -20,6 +21,7 @@
 #include "passes/arithmetic/straighten_rows.hpp"
 #include "passes/constants/fold_constant_expressions.hpp"
 #include "passes/constants/fold_uniform_tables.hpp"
+#include "passes/constants/tabulate_calls.hpp"
 #include "passes/constants/tabulate_constant_fluents.hpp"
 #include "passes/constants/tabulate_constants.hpp"
 #include "passes/lanes/choose_evaluation.hpp"
@@ -43,6 +45,9 @@ namespace {
 constexpr std::string_view strength_summary =
     "operators get cheaper equals: products replace divisions and powers";
 
+constexpr std::string_view draws_summary =
+    "draws of two branches that have the same random numbers become one";
+
 constexpr Pass in_order[] = {
     {"tabulate_constant_fluents",
      Phase::Constants,
@@ -50,6 +55,12 @@ constexpr Pass in_order[] = {
      "interm-fluents that the instance fixes become tables",
      {},
      "all passes below know more about a table than about a fluent"},
+    {"tabulate_calls",
+     Phase::Constants,
+     tabulate_calls,
+     "functions of tables that the instance fixes are called now",
+     {"tabulate_constant_fluents"},
+     "what they are given may come from constant fluents"},
     {"fold_uniform_tables",
      Phase::Constants,
      fold_uniform_tables,
@@ -123,9 +134,15 @@ constexpr Pass in_order[] = {
     {"merge_draws",
      Phase::Aggregations,
      merge_draws,
-     "draws of two branches that have the same random numbers become one",
+     draws_summary,
      {"tabulate_thresholds"},
      "draws that search a table have one form"},
+    {"draw_over_objects",
+     Phase::Aggregations,
+     draw_over_objects,
+     "a draw from weights that are one expression of different objects is one over the objects",
+     {"tabulate_thresholds"},
+     "weights that tables and small ints decide are gone"},
     {"factor_aggregations",
      Phase::Aggregations,
      factor_aggregations,
@@ -150,7 +167,8 @@ constexpr Pass in_order[] = {
      tabulate_counts,
      "an expression of a count, or of another small int, becomes a table",
      {"count_bools", "make_aggregations_sparse"},
-     "a sparse row bounds its count, so that the table is small"},
+     "a sparse row bounds its count, so that the table is small",
+     may_find_more},
     {"straighten_rows",
      Phase::Arithmetic,
      straighten_rows,
@@ -164,6 +182,12 @@ constexpr Pass in_order[] = {
      "an expression of tables and loop variables becomes a table",
      {"make_aggregations_sparse"},
      "a table of entries is smaller than one of all pairs"},
+    {"merge_draws",
+     Phase::Aggregations,
+     merge_draws,
+     draws_summary,
+     {"tabulate_constants"},
+     "a table shows that its elements are probabilities"},
     {"skip_zero_terms",
      Phase::Aggregations,
      skip_zero_terms,

@@ -19,6 +19,10 @@ constexpr std::int64_t default_horizon = 40;
 // allowed for one.
 constexpr std::array thresholds{0.5, 0.2};
 
+// A plan of several steps waits so many seconds for its comparison with no-op, also when its time
+// is over: it may be worse.
+constexpr double comparison_patience = 5;
+
 std::size_t scenarios_of(const rddl_problem& problem, const GradientOptions& options) {
     return static_cast<std::size_t>(options.scenarios.value_or(problem.stochastic ? 4 : 1));
 }
@@ -249,11 +253,12 @@ std::int64_t Gradient::compare(const DecisionPoint& point, const Memory& memory,
         by_policy_[k] = candidates_[k % count].kind == Candidate::Kind::Policy;
     }
     const double before = meter.seconds();
+    const double patience = options_.replan > 1 && memory.is_improved ? comparison_patience : 0;
     futures_.begin(point.batch, point.place, streams_);
     if (base_) base_->begin(point.episode, point.step, point.horizon, streams_);
     std::int64_t t = 0;
     for (; t < depth && futures_.any_running(); ++t) {
-        if (t > 0 && t % 4 == 0 && meter.is_late()) break;
+        if (t > 0 && t % 4 == 0 && meter.is_late() && meter.seconds() - before >= patience) break;
         write_rows(memory, t);
         for (std::size_t k = 0; k < lanes; ++k)
             records_.write(rows_.data() + k * columns, actions_.data() + k * size);

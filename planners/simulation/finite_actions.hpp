@@ -24,6 +24,8 @@ class FiniteActions {
 
     std::size_t count() const { return count_; }
     const std::byte* record(std::size_t action) const { return records_.data() + action * size_; }
+    // Whether there are states in which some of them violate preconditions.
+    bool may_be_illegal() const { return asks_; }
     // Whether each of them satisfies the preconditions where environment `place` of the batch
     // stands. Where none does, all are taken for legal.
     void find_legal(const rddl_batch* batch, std::int64_t place, std::vector<std::uint8_t>& legal);

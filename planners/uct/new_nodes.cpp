@@ -1,10 +1,11 @@
-// The values of new nodes of plan:uct, by continuations.
+// The values of new nodes of plan:uct, in the determinised problem or by continuations.
 #include "planners/simulation/random_stream.hpp"
 #include "planners/uct/uct.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <limits>
 
 namespace rddlc::planners {
 
@@ -12,21 +13,147 @@ namespace {
 
 // Draws of each action by which a state is known for one that nothing changes.
 constexpr std::size_t lock_draws = 64;
+// Steps and draws by which a policy values what comes after a lookahead.
+constexpr std::int64_t later_steps = 20;
+constexpr std::size_t later_draws = 4;
 
 }  // namespace
 
+bool Uct::value_new_nodes(const DecisionPoint& point, RandomStream& stream, BudgetMeter& meter,
+                          std::size_t draws) {
+    const bool is_done = is_determinised() ? value_by_determinisation(point, stream, meter)
+                                           : value_by_policy(point, stream, meter, draws);
+    return is_done && (options_.policy.empty() || find_preferred(point, stream, meter));
+}
+
+bool Uct::find_preferred(const DecisionPoint& point, RandomStream& stream, BudgetMeter& meter) {
+    for (std::size_t first = 0; first < new_nodes_.size(); first += continuations_.lanes()) {
+        const std::size_t count = std::min(continuations_.lanes(), new_nodes_.size() - first);
+        starts_.clear();
+        for (std::size_t k = first; k < first + count; ++k)
+            starts_.push_back({tree().state(new_nodes_[k]), tree().node(new_nodes_[k]).step,
+                               nullptr, 1, stream.bits()});
+        if (!meter.has_room(static_cast<std::int64_t>(count), 0) ||
+            !continuations_.run(point, starts_, policies_[policy_], meter))
+            return false;
+        for (std::size_t k = 0; k < count; ++k) {
+            Node& node = tree().node(new_nodes_[first + k]);
+            const std::byte* const record = continuations_.first_action(k);
+            std::int32_t place = 0;
+            for (const Edge& edge : tree().edges(node)) {
+                if (std::equal(record, record + action_size_, actions_.record(edge.action)))
+                    node.preferred = place;
+                ++place;
+            }
+        }
+    }
+    return true;
+}
+
+bool Uct::value_by_determinisation(const DecisionPoint& point, RandomStream& stream,
+                                   BudgetMeter& meter) {
+    DeterminisedProblem& determinised = memory_->determinised;
+    determinised_states_.clear();
+    for (const NodeId id : new_nodes_)
+        determinised_states_.push_back(determinised.state_of(tree().state(id)));
+    if (!determinised.open(determinised_states_, *typical_steps_, meter)) return false;
+    if (!find_later_rewards(point, stream, meter)) return false;
+    for (std::size_t n = 0; n < new_nodes_.size(); ++n) {
+        Node& node = tree().node(new_nodes_[n]);
+        const auto moves = determinised.moves(determinised_states_[n]);
+        if (node.edge_count == 0)
+            for (const auto& move : moves) tree().add_edge(new_nodes_[n], move.action);
+        std::size_t next = 0;
+        for (Edge& edge : tree().edges(node)) {
+            while (next < moves.size() && moves[next].action < edge.action) ++next;
+            if (next == moves.size() || moves[next].action != edge.action) continue;
+            edge.estimates = 1;
+            edge.value = edge.estimate = estimate(moves[next], node);
+        }
+        node.is_open = true;
+        tree().value_node(node);
+        const auto state = determinised_states_[n];
+        if (!determinised.stays(state)) continue;
+        unchanged_rewards_.resize(new_nodes_.size());
+        unchanged_rewards_[n] = moves.front().reward;
+        if (simulator_.problem->stochastic && !determinised.is_confirmed(state))
+            determinised.confirm(state, stays_unchanged(point, n, stream, meter));
+        if (determinised.stays(state)) lock(node, moves.front().reward);
+    }
+    return true;
+}
+
+// The lookahead, and the mean reward of the policy from its end to that of the search.
+double Uct::estimate(const DeterminisedProblem::Move& move, const Node& node) {
+    DeterminisedProblem& determinised = memory_->determinised;
+    const std::int64_t left = end_ - node.step;
+    const std::int64_t depth = std::min(left, determinised.depth());
+    const auto course = determinised.after(move, depth);
+    if (course.end == DeterminisedProblem::over || left == depth) return course.value;
+    return course.value + std::pow(tree().discount(), static_cast<double>(depth)) *
+                              discounted_steps(left - depth) * determinised.later(course.end);
+}
+
+// The discounted sum of a reward of 1 in each of so many steps.
+double Uct::discounted_steps(std::int64_t steps) const {
+    const double discount = tree().discount();
+    return discount == 1 ? static_cast<double>(steps)
+                         : (1 - std::pow(discount, static_cast<double>(steps))) / (1 - discount);
+}
+
+// The ends of lookaheads from new nodes whose later rewards are not known.
+void Uct::find_ends() {
+    DeterminisedProblem& determinised = memory_->determinised;
+    ends_.clear();
+    for (std::size_t n = 0; n < new_nodes_.size(); ++n) {
+        if (end_ - tree().node(new_nodes_[n]).step <= determinised.depth()) continue;
+        for (const auto& move : determinised.moves(determinised_states_[n])) {
+            const auto end = determinised.after(move, determinised.depth()).end;
+            if (end == DeterminisedProblem::over || !std::isnan(determinised.later(end))) continue;
+            determinised.later(end) =
+                determinised.stays(end) ? determinised.moves(end).front().reward : 0;
+            if (!determinised.stays(end)) ends_.push_back(end);
+        }
+    }
+}
+
+bool Uct::find_later_rewards(const DecisionPoint& point, RandomStream& stream, BudgetMeter& meter) {
+    find_ends();
+    DeterminisedProblem& determinised = memory_->determinised;
+    const std::int64_t depth = std::min(later_steps, end_ - step_);
+    const std::size_t draws = simulator_.problem->stochastic ? later_draws : 1;
+    const std::size_t some = std::max<std::size_t>(1, continuations_.lanes() / draws);
+    for (std::size_t first = 0; first < ends_.size(); first += some) {
+        const std::size_t count = std::min(some, ends_.size() - first);
+        starts_.clear();
+        for (std::size_t k = 0; k < count * draws; ++k)
+            starts_.push_back({determinised.record(ends_[first + k / draws]), step_, nullptr, depth,
+                               stream.bits()});
+        if (!meter.has_room(static_cast<std::int64_t>(starts_.size()) * depth, 0) ||
+            !continuations_.run(point, starts_, policies_[policy_], meter)) {
+            for (std::size_t k = first; k < ends_.size(); ++k)
+                determinised.later(ends_[k]) = std::numeric_limits<double>::quiet_NaN();
+            return false;
+        }
+        for (std::size_t k = 0; k < starts_.size(); ++k)
+            determinised.later(ends_[first + k / draws]) +=
+                continuations_.value(k) / discounted_steps(depth) / static_cast<double>(draws);
+    }
+    return true;
+}
+
 // Each action of each new node is tried, and the policy plays on: the actions of a node with the
 // same stream. Or the policy alone plays on.
-bool Uct::value_new_nodes(const DecisionPoint& point, RandomStream& stream, BudgetMeter& meter,
+bool Uct::value_by_policy(const DecisionPoint& point, RandomStream& stream, BudgetMeter& meter,
                           std::size_t draws) {
     asked_.clear();
     unchanged_.assign(new_nodes_.size(), 0);
     unchanged_rewards_.assign(new_nodes_.size(), 0);
-    const bool by_policy = options_.initial == Initial::Rollout;
+    const bool by_policy = initial_ == Initial::Rollout;
     for (std::size_t n = 0; n < new_nodes_.size(); ++n)
         for (std::size_t d = 0; d < draws; ++d) {
             const std::uint64_t draw = stream.bits();
-            const Node& node = tree_.node(new_nodes_[n]);
+            const Node& node = tree().node(new_nodes_[n]);
             for (std::uint32_t e = 0; e < (by_policy ? 1 : node.edge_count); ++e)
                 asked_.push_back({static_cast<NodeId>(n), node.first_edge + e, draw});
         }
@@ -35,11 +162,11 @@ bool Uct::value_new_nodes(const DecisionPoint& point, RandomStream& stream, Budg
         starts_.clear();
         for (std::size_t k = first; k < first + count; ++k) {
             const NodeId id = new_nodes_[asked_[k].node];
-            const Node& node = tree_.node(id);
-            const std::uint32_t action = tree_.edge(asked_[k].edge).action;
+            const Node& node = tree().node(id);
+            const std::uint32_t action = tree().edge(asked_[k].edge).action;
             starts_.push_back(
-                {tree_.state(id), step_ + node.depth, by_policy ? nullptr : actions_.record(action),
-                 std::min(std::min(depth_ - node.depth, leaf_depth_),
+                {tree().state(id), node.step, by_policy ? nullptr : actions_.record(action),
+                 std::min(std::min(end_ - node.step, memory_->leaf_depth),
                           std::max<std::int64_t>(
                               1, meter.steps_left() / static_cast<std::int64_t>(count))),
                  asked_[k].stream});
@@ -51,31 +178,36 @@ bool Uct::value_new_nodes(const DecisionPoint& point, RandomStream& stream, Budg
         take_values(first, count);
     }
     for (std::size_t n = 0; n < new_nodes_.size(); ++n) {
-        Node& node = tree_.node(new_nodes_[n]);
+        Node& node = tree().node(new_nodes_[n]);
         node.is_open = true;
-        if (!by_policy) tree_.value_node(node);
+        if (!by_policy) tree().value_node(node);
         if (by_policy || unchanged_[n] < draws * node.edge_count) continue;
         if (simulator_.problem->stochastic && !stays_unchanged(point, n, stream, meter)) continue;
-        node.is_locked = true;
-        node.value = 0;
-        for (std::int64_t t = node.depth; t < depth_; ++t)
-            node.value = unchanged_rewards_[n] + tree_.discount() * node.value;
+        lock(node, unchanged_rewards_[n]);
     }
     return true;
+}
+
+// The value is that of this reward in each step.
+void Uct::lock(Node& node, double reward) {
+    node.is_locked = true;
+    node.value = 0;
+    for (std::int64_t t = node.step; t < end_; ++t)
+        node.value = reward + tree().discount() * node.value;
 }
 
 // Whether it was no accident that no action has changed the state: each one is tried again, often.
 bool Uct::stays_unchanged(const DecisionPoint& point, std::size_t n, RandomStream& stream,
                           BudgetMeter& meter) {
     const NodeId id = new_nodes_[n];
-    const Node& node = tree_.node(id);
+    const Node& node = tree().node(id);
     const std::size_t all = lock_draws * node.edge_count;
     for (std::size_t first = 0; first < all; first += continuations_.lanes()) {
         starts_.clear();
         for (std::size_t k = first; k < std::min(all, first + continuations_.lanes()); ++k) {
             const auto edge = static_cast<EdgeId>(k % node.edge_count);
-            starts_.push_back({tree_.state(id), step_ + node.depth,
-                               actions_.record(tree_.edge(node.first_edge + edge).action), 1,
+            starts_.push_back({tree().state(id), node.step,
+                               actions_.record(tree().edge(node.first_edge + edge).action), 1,
                                stream.bits()});
         }
         if (!meter.has_room(static_cast<std::int64_t>(starts_.size()), 0) ||
@@ -90,20 +222,20 @@ bool Uct::stays_unchanged(const DecisionPoint& point, std::size_t n, RandomStrea
 // The value that continuation k found, which began in that node.
 bool Uct::is_unchanged(NodeId id, std::size_t n, std::size_t k) const {
     return continuations_.first_reward(k) == unchanged_rewards_[n] &&
-           std::memcmp(continuations_.first_state(k), tree_.state(id), state_size_) == 0;
+           std::memcmp(continuations_.first_state(k), tree().state(id), state_size_) == 0;
 }
 
 void Uct::take_values(std::size_t first, std::size_t count) {
     for (std::size_t k = 0; k < count; ++k) {
         const Asked& asked = asked_[first + k];
         const NodeId id = new_nodes_[asked.node];
-        if (options_.initial == Initial::Rollout) {
-            Node& node = tree_.node(id);
+        if (initial_ == Initial::Rollout) {
+            Node& node = tree().node(id);
             node.draws += 1;
             node.value += (value_of(k) - node.value) / node.draws;
             continue;
         }
-        Edge& edge = tree_.edge(asked.edge);
+        Edge& edge = tree().edge(asked.edge);
         edge.estimates += 1;
         edge.estimate += (value_of(k) - edge.estimate) / edge.estimates;
         edge.value = edge.estimate;
@@ -119,10 +251,10 @@ void Uct::take_values(std::size_t first, std::size_t count) {
 double Uct::value_of(std::size_t k) const {
     const double value = continuations_.value(k);
     const std::int64_t made = starts_[k].depth;
-    const std::int64_t left = depth_ - (starts_[k].step - step_) - made;
+    const std::int64_t left = end_ - starts_[k].step - made;
     if (left <= 0 || !continuations_.is_cut(k)) return value;
-    double rest = 0, weight = std::pow(tree_.discount(), static_cast<double>(made));
-    for (std::int64_t t = 0; t < left; ++t, weight *= tree_.discount())
+    double rest = 0, weight = std::pow(tree().discount(), static_cast<double>(made));
+    for (std::int64_t t = 0; t < left; ++t, weight *= tree().discount())
         rest += weight * continuations_.last_reward(k);
     return value + rest;
 }

@@ -1,9 +1,6 @@
 #include "planners/uct/tree.hpp"
 
-#include "planners/simulation/random_stream.hpp"
-
 #include <algorithm>
-#include <cstring>
 #include <limits>
 
 namespace rddlc::planners {
@@ -17,35 +14,23 @@ void Tree::clear() {
     ids_.clear();
 }
 
-// Two states of 10^6 have the same key with a chance of 10^-7; such are taken for one.
-std::uint64_t Tree::key_of(const std::byte* state, std::int64_t depth) const {
-    std::uint64_t key = scrambled(static_cast<std::uint64_t>(depth) + 1);
-    std::size_t b = 0;
-    for (; b + 8 <= state_size_; b += 8) {
-        std::uint64_t word;
-        std::memcpy(&word, state + b, 8);
-        key = scrambled(key ^ word) + 0x9E3779B97F4A7C15u;
-    }
-    std::uint64_t rest = 0;
-    if (b < state_size_) std::memcpy(&rest, state + b, state_size_ - b);
-    return scrambled(key ^ rest);
+std::uint64_t Tree::key_of(const std::byte* state, std::int64_t step) const {
+    return hash_of(state, state_size_, static_cast<std::uint64_t>(step));
 }
 
-const NodeId* Tree::find(const std::byte* state, std::int64_t depth) const {
-    const auto found = ids_.find(key_of(state, depth));
-    return found == ids_.end() ? nullptr : &found->second;
+const NodeId* Tree::find(const std::byte* state, std::int64_t step) const {
+    return ids_.find(key_of(state, step));
 }
 
-NodeId Tree::node_of(const std::byte* state, std::int64_t depth) {
-    const auto [found, is_new] =
-        ids_.try_emplace(key_of(state, depth), static_cast<NodeId>(nodes_.size()));
+NodeId Tree::node_of(const std::byte* state, std::int64_t step) {
+    const auto [id, is_new] = ids_.add(key_of(state, step), static_cast<NodeId>(nodes_.size()));
     if (is_new) {
         Node node;
-        node.depth = depth;
+        node.step = step;
         nodes_.push_back(node);
         states_.insert(states_.end(), state, state + state_size_);
     }
-    return found->second;
+    return id;
 }
 
 void Tree::add_edge(NodeId id, std::uint32_t action) {
@@ -88,6 +73,55 @@ NodeId Tree::seen_outcome(EdgeId id, double share) const {
     return chosen;
 }
 
+std::size_t Tree::bytes() const {
+    return nodes_.size() * (sizeof(Node) + state_size_) + ids_.bytes() +
+           edges_.size() * sizeof(Edge) + outcomes_.size() * sizeof(Outcome);
+}
+
+void Tree::keep_below(EdgeId edge) {
+    Tree kept(state_size_, discount_, backup_);
+    kept.clear();
+    std::vector<NodeId> found;  // in this tree, by their number in the other one
+    std::vector<NodeId> kept_id(size(), over);
+    found.push_back(over);
+    const auto keep = [&](NodeId id) {
+        if (id == over || kept_id[id] != over || !nodes_[id].is_open) return kept_id[id];
+        found.push_back(id);
+        kept_id[id] = kept.node_of(state(id), nodes_[id].step);
+        return kept_id[id];
+    };
+    const auto keep_outcomes = [&](const Edge& from, Edge* to) {
+        std::int32_t last = -1;
+        for (std::int32_t o = from.first_outcome; o >= 0;) {
+            const Outcome& outcome = outcomes_[static_cast<std::size_t>(o)];
+            o = outcome.next;
+            const NodeId node = keep(outcome.node);
+            if (!to || (node == over && outcome.node != over)) continue;
+            const auto place = static_cast<std::int32_t>(kept.outcomes_.size());
+            kept.outcomes_.push_back({node, outcome.count, -1});
+            (last < 0 ? to->first_outcome : kept.outcomes_[static_cast<std::size_t>(last)].next) =
+                place;
+            last = place;
+            ++to->outcome_count;
+        }
+    };
+    keep_outcomes(edges_[edge], nullptr);
+    for (NodeId id = 1; id < found.size(); ++id) {
+        const Node& node = nodes_[found[id]];
+        kept.nodes_[id] = node;
+        kept.nodes_[id].first_edge = static_cast<EdgeId>(kept.edges_.size());
+        for (const Edge& old : edges(node)) {
+            Edge copy = old;
+            copy.started = copy.done;  // trials that were cut off leave nothing
+            copy.first_outcome = -1;
+            copy.outcome_count = 0;
+            keep_outcomes(old, &copy);
+            kept.edges_.push_back(copy);
+        }
+    }
+    *this = std::move(kept);
+}
+
 void Tree::back_up(NodeId id, EdgeId edge_id, double reward, double rest) {
     Edge& edge = edges_[edge_id];
     edge.done += 1;
@@ -105,9 +139,17 @@ void Tree::back_up(NodeId id, EdgeId edge_id, double reward, double rest) {
         }
         mean = edge.rewards / done + discount_ * after / count;
     }
-    const double weight = edge.estimates > 0 ? 1 : 0;
+    const double weight = edge.estimates > 0 ? 1 : 0, before = edge.value;
     edge.value = (weight * edge.estimate + done * mean) / (weight + done);
-    value_node(nodes_[id]);
+    Node& node = nodes_[id];
+    const auto place = static_cast<std::int32_t>(edge_id - node.first_edge);
+    const bool is_best = place == node.best;
+    if (node.best < 0 || (is_best && edge.value < before)) {
+        value_node(node);
+    } else if (is_best || edge.value > node.value) {
+        node.best = place;
+        node.value = edge.value;
+    }
 }
 
 void Tree::value_node(Node& node) {
@@ -115,7 +157,10 @@ void Tree::value_node(Node& node) {
     for (const Edge& edge : edges(node)) {
         const double weight = edge.done + (edge.estimates > 0 ? 1 : 0);
         if (weight == 0) continue;
-        best = std::max(best, edge.value);
+        if (backup_ == Backup::Max && (count == 0 || edge.value > best)) {
+            best = edge.value;
+            node.best = static_cast<std::int32_t>(id_of(edge) - node.first_edge);
+        }
         sum += weight * edge.value;
         count += weight;
     }

@@ -1,13 +1,14 @@
-// The tree of a search: states that were met, at their depths, the actions that are legal there,
-// and what came of these. States that are met again at the same depth are one node.
+// The tree of a search: states that were met, at their steps, the actions that are legal there,
+// and what came of these. States that are met again at the same step are one node.
 #pragma once
 
+#include "planners/uct/state_hash.hpp"
 #include "planners/uct/uct_options.hpp"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -20,8 +21,11 @@ struct Node {
     EdgeId first_edge = 0;
     std::uint32_t edge_count = 0;
     std::int32_t draws = 0;  // that its value was found by, before it had edges with values
-    std::int64_t depth = 0;
+    std::int64_t step = 0;   // of the episode
     double value = 0;
+    std::int32_t best = -1;  // the edge, from 0, whose value is the node's; -1: no such edge
+    std::int32_t preferred =
+        -1;                  // the edge, from 0, of the action that a policy takes; -1: unknown
     bool is_open = false;    // its edges have values
     bool is_locked = false;  // whatever is done, the state and the reward stay: the value is exact
 };
@@ -52,10 +56,10 @@ class Tree {
         : state_size_(state_size), discount_(discount), backup_(backup) {}
 
     void clear();
-    // The node of the state at that depth: a new one, unless find() knows it.
-    NodeId node_of(const std::byte* state, std::int64_t depth);
+    // The node of the state at that step: a new one, unless find() knows it.
+    NodeId node_of(const std::byte* state, std::int64_t step);
     // Nothing: it was not met before.
-    const NodeId* find(const std::byte* state, std::int64_t depth) const;
+    const NodeId* find(const std::byte* state, std::int64_t step) const;
     void add_edge(NodeId node, std::uint32_t action);  // of one node after the other
 
     Node& node(NodeId id) { return nodes_[id]; }
@@ -67,9 +71,18 @@ class Tree {
         return {edges_.data() + node.first_edge, node.edge_count};
     }
     Edge& edge(EdgeId id) { return edges_[id]; }
+    // Asks for the memory of the node's edges, which a choice among them reads soon.
+    void prefetch_edges(const Node& node) const {
+        const auto* const first = reinterpret_cast<const char*>(edges_.data() + node.first_edge);
+        const std::size_t size = std::min<std::size_t>(node.edge_count * sizeof(Edge), 4096);
+        for (std::size_t b = 0; b < size; b += 64) __builtin_prefetch(first + b);
+    }
     EdgeId id_of(const Edge& edge) const { return static_cast<EdgeId>(&edge - edges_.data()); }
     const std::byte* state(NodeId id) const { return states_.data() + id * state_size_; }
     std::size_t size() const { return nodes_.size(); }
+    std::size_t bytes() const;
+    // Forgets all but what may follow this action.
+    void keep_below(EdgeId edge);
 
     // A trial went on to that node; one that was seen before, chosen by `share` of [0, 1).
     void add_outcome(EdgeId edge, NodeId node);
@@ -80,7 +93,7 @@ class Tree {
     double discount() const { return discount_; }
 
   private:
-    std::uint64_t key_of(const std::byte* state, std::int64_t depth) const;
+    std::uint64_t key_of(const std::byte* state, std::int64_t step) const;
 
     std::size_t state_size_;
     double discount_;
@@ -89,7 +102,7 @@ class Tree {
     std::vector<Edge> edges_;
     std::vector<Outcome> outcomes_;
     std::vector<std::byte> states_;
-    std::unordered_map<std::uint64_t, NodeId> ids_;
+    StateTable ids_;
 };
 
 }  // namespace rddlc::planners

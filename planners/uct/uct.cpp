@@ -15,6 +15,10 @@ namespace rddlc::planners {
 namespace {
 
 constexpr std::int64_t first_depth = 40;
+// Steps of a lookahead in the determinised problem, at most.
+constexpr std::int64_t deepest_lookahead = 100;
+// A budget of steps lasts for so many lookaheads.
+constexpr std::int64_t least_lookaheads = 10;
 // Environments in which leaves are valued together, at most.
 constexpr std::int64_t most_leaf_lanes = 1024;
 // Draws that the policy is chosen by, each of all of its steps.
@@ -46,9 +50,14 @@ std::int64_t affordable_lanes(const UctOptions& options, std::int64_t wanted) {
     return std::clamp<std::int64_t>(options.budget.steps.value_or(most_steps) / 40, 1, wanted);
 }
 
+Initial initial_of(const UctOptions& options) {
+    return options.initial.value_or(options.policy.empty() ? Initial::Determinised
+                                                           : Initial::Lookahead);
+}
+
 std::int64_t leaf_lanes(const UctOptions& options, std::size_t actions) {
     const auto each =
-        static_cast<std::int64_t>(options.initial == Initial::Lookahead ? actions : 1);
+        static_cast<std::int64_t>(initial_of(options) == Initial::Lookahead ? actions : 4);
     return std::clamp<std::int64_t>(affordable_lanes(options, options.lanes) * each, 1,
                                     most_leaf_lanes);
 }
@@ -58,17 +67,20 @@ std::int64_t leaf_lanes(const UctOptions& options, std::size_t actions) {
 Uct::Uct(const PlannerContext& context, const UctOptions& options)
     : simulator_(context.simulator),
       options_(options),
+      initial_(initial_of(options)),
       state_size_(static_cast<std::size_t>(simulator_.problem->state_size)),
       action_size_(static_cast<std::size_t>(simulator_.problem->action_size)),
       actions_(finite_actions(simulator_, options.actions)),
       trees_(simulator_, affordable_lanes(options, options.lanes), context.horizon),
       continuations_(simulator_, leaf_lanes(options, actions_.count()), context.horizon),
-      tree_(state_size_, simulator_.problem->discount, options.backup),
+      most_bytes_(static_cast<std::size_t>(context.memory_limit / 4 / context.environments)),
+      memories_(static_cast<std::size_t>(context.environments)),
       trials_(trees_.running().size()),
       streams_(trials_.size()),
       records_(trials_.size() * action_size_),
       states_(trials_.size() * state_size_) {
     const auto lanes = static_cast<std::int64_t>(continuations_.lanes());
+    if (is_determinised()) typical_steps_.emplace(simulator_, actions_, options.seed);
     if (context.base)
         policies_.emplace_back(simulator_, *context.base, lanes);
     else {
@@ -81,12 +93,12 @@ Uct::Uct(const PlannerContext& context, const UctOptions& options)
 void Uct::choose_policy(const DecisionPoint& point, RandomStream& stream, BudgetMeter& meter) {
     policy_ = 0;
     const std::size_t draws = std::min(policy_draws, continuations_.lanes());
-    const auto cost = static_cast<std::int64_t>(draws * policies_.size()) * depth_;
+    const auto cost = static_cast<std::int64_t>(draws * policies_.size()) * (end_ - step_);
     // A tenth of the budget may go there.
     if (policies_.size() == 1 || !meter.has_room(10 * cost, 0)) return;
     starts_.clear();
     for (std::size_t d = 0; d < draws; ++d)
-        starts_.push_back({nullptr, step_, nullptr, depth_, stream.bits()});
+        starts_.push_back({nullptr, step_, nullptr, end_ - step_, stream.bits()});
     double best = 0;
     for (std::size_t p = 0; p < policies_.size(); ++p) {
         if (!continuations_.run(point, starts_, policies_[p], meter)) return;
@@ -101,54 +113,121 @@ void Uct::choose_policy(const DecisionPoint& point, RandomStream& stream, Budget
 void Uct::add_edges(NodeId node, const rddl_batch* batch, std::int64_t place) {
     actions_.find_legal(batch, place, legal_);
     for (std::size_t a = 0; a < actions_.count(); ++a)
-        if (legal_[a]) tree_.add_edge(node, static_cast<std::uint32_t>(a));
+        if (legal_[a]) tree().add_edge(node, static_cast<std::uint32_t>(a));
+}
+
+// The tree of the decision before is kept, if it looks far enough ahead.
+void Uct::choose_memory(const DecisionPoint& point) {
+    auto& memory = memories_[static_cast<std::size_t>(point.place)];
+    if (!memory || point.step == 0) {
+        memory.emplace(Tree(state_size_, simulator_.problem->discount, options_.backup),
+                       DeterminisedProblem(state_size_, simulator_.problem->discount));
+        memory->tree.clear();
+    }
+    memory_ = &*memory;
+    step_ = point.step;
+    const std::int64_t depth = options_.horizon.value_or(first_depth);
+    end_ = point.left <= depth                      ? step_ + point.left
+           : memory->end >= step_ + (depth + 1) / 2 ? std::min(memory->end, step_ + depth)
+                                                    : step_ + depth;
+    if (end_ != memory->end || memory->tree.bytes() > most_bytes_ / 2) memory->tree.clear();
+    if (memory->determinised.bytes() > most_bytes_ / 2) memory->determinised.clear();
+    memory->end = end_;
 }
 
 bool Uct::open_root(const DecisionPoint& point, RandomStream& stream, BudgetMeter& meter) {
     solvers::require_done(simulator_,
                           simulator_.get_state(point.batch, point.place, 1, states_.data()));
-    tree_.clear();
-    root_ = tree_.node_of(states_.data(), 0);
-    new_nodes_.assign(1, root_);
-    add_edges(root_, point.batch, point.place);
     least_ = std::numeric_limits<double>::infinity();
     most_ = -least_;
-    leaf_depth_ = depth_;
-    const auto edges = static_cast<std::int64_t>(tree_.node(root_).edge_count);
+    if (is_determinised()) choose_lookahead(meter);
+    const NodeId* const known = tree().find(states_.data(), step_);
+    if (known && tree().node(*known).is_open) {
+        root_ = *known;
+        note_range();
+        return true;
+    }
+    root_ = tree().node_of(states_.data(), step_);
+    new_nodes_.assign(1, root_);
+    add_edges(root_, point.batch, point.place);
+    memory_->leaf_depth = end_ - step_;
+    const auto edges = static_cast<std::int64_t>(tree().node(root_).edge_count);
     if (!meter.has_room(edges, 0)) return false;
     const bool is_cheap =
-        meter.has_room(10 * edges * depth_ * static_cast<std::int64_t>(root_draws), 0);
+        meter.has_room(10 * edges * (end_ - step_) * static_cast<std::int64_t>(root_draws), 0);
     if (!value_new_nodes(point, stream, meter, is_cheap ? root_draws : 1)) return false;
+    note_range();
     // Where the policy shows no difference between actions, the tree has to: it grows deeper with
     // leaves that are looked at more shortly.
-    if (least_ == most_) leaf_depth_ = short_leaf;
+    if (least_ == most_) memory_->leaf_depth = short_leaf;
     return true;
+}
+
+// As deep as can be done often in the budget.
+void Uct::choose_lookahead(BudgetMeter& meter) {
+    DeterminisedProblem& determinised = memory_->determinised;
+    const auto affordable = static_cast<std::size_t>(
+        meter.steps_left() / (least_lookaheads * typical_steps_->cost()) + 1);
+    const std::int64_t depth = determinised.affordable_depth(
+        determinised.state_of(states_.data()), std::min(end_ - step_, deepest_lookahead),
+        std::min(static_cast<std::size_t>(options_.lookahead), affordable), *typical_steps_, meter);
+    if (depth > 0 && depth != determinised.depth()) determinised.set_depth(depth);
+}
+
+// The range of returns begins with the values of the root's actions.
+void Uct::note_range() {
+    for (const Edge& edge : tree().edges(tree().node(root_)))
+        if (edge.weight() > 0) note_return(edge.value);
+}
+
+double Uct::bonus(const Node& node) const {
+    const double left = static_cast<double>(end_ - node.step) / static_cast<double>(end_ - step_);
+    return std::max(options_.exploration * std::max(0.0, most_ - least_) * left, 1e-9);
 }
 
 // Actions without a value come first. Then the best by value and by how little it was tried (UCB1).
 EdgeId Uct::choose_edge(const Node& node, RandomStream& stream) {
+    if (node.preferred >= 0) return choose_by_prior(node);
     double all = 1;
     std::uint32_t untried = 0;
     EdgeId chosen = node.first_edge;
-    for (const Edge& edge : tree_.edges(node)) {
+    for (const Edge& edge : tree().edges(node)) {
         all += edge.weight();
-        if (edge.weight() == 0 && stream.below(++untried) == 0) chosen = tree_.id_of(edge);
+        if (edge.weight() == 0 && stream.below(++untried) == 0) chosen = tree().id_of(edge);
     }
     if (untried > 0) return chosen;
-    const double left = static_cast<double>(depth_ - node.depth) / static_cast<double>(depth_);
-    const double bonus = options_.exploration * std::max(0.0, most_ - least_) * left;
-    const double logarithm = std::log(all);
+    const double scale = bonus(node) * std::sqrt(std::log(all));
     double best = -std::numeric_limits<double>::infinity();
     // Where all that was seen is alike, the least tried action comes next.
-    for (const Edge& edge : tree_.edges(node)) {
+    for (const Edge& edge : tree().edges(node)) {
         // Trials that are under way count as tried, so that those beside them differ.
-        const double bound =
-            edge.value + std::max(bonus, 1e-9) * std::sqrt(logarithm / edge.weight());
+        const double bound = edge.value + scale / std::sqrt(edge.weight());
         if (!(bound > best)) continue;
         best = bound;
-        chosen = tree_.id_of(edge);
+        chosen = tree().id_of(edge);
     }
     return chosen;
+}
+
+// PUCT: the policy's action has half of the prior, and all share the rest. An action that was not
+// tried yet has the value of the node.
+EdgeId Uct::choose_by_prior(const Node& node) const {
+    const auto edges = tree().edges(node);
+    double all = 1;
+    for (const Edge& edge : edges) all += edge.weight();
+    const double scale = bonus(node) * std::sqrt(all);
+    std::size_t chosen = 0;
+    double best = -std::numeric_limits<double>::infinity();
+    for (std::size_t e = 0; e < edges.size(); ++e) {
+        const bool is_preferred = e == static_cast<std::size_t>(node.preferred);
+        const double prior = 0.5 / static_cast<double>(edges.size()) + (is_preferred ? 0.5 : 0);
+        const double value = edges[e].weight() > 0 ? edges[e].value : node.value;
+        const double bound = value + scale * prior / (1 + edges[e].weight());
+        if (!(bound > best)) continue;
+        best = bound;
+        chosen = e;
+    }
+    return node.first_edge + static_cast<EdgeId>(chosen);
 }
 
 bool Uct::run_trials(const DecisionPoint& point, RandomStream& stream, BudgetMeter& meter) {
@@ -160,7 +239,7 @@ bool Uct::run_trials(const DecisionPoint& point, RandomStream& stream, BudgetMet
         trial.is_down = false;
         trial.hops.clear();
     }
-    for (std::int64_t depth = 0; step_trials(stream, depth, meter); ++depth) {
+    for (std::int64_t step = step_; step_trials(stream, step, meter); ++step) {
     }
     if (!new_nodes_.empty() && !value_new_nodes(point, stream, meter, 1)) return false;
     for (const Trial& trial : trials_) back_up(trial);
@@ -169,18 +248,20 @@ bool Uct::run_trials(const DecisionPoint& point, RandomStream& stream, BudgetMet
 }
 
 // False: all have reached their leaves.
-bool Uct::step_trials(RandomStream& stream, std::int64_t depth, BudgetMeter& meter) {
+bool Uct::step_trials(RandomStream& stream, std::int64_t step, BudgetMeter& meter) {
     std::int64_t moving = 0;
+    for (const Trial& trial : trials_)
+        if (!trial.is_down) tree().prefetch_edges(tree().node(trial.node));
     for (std::size_t k = 0; k < trials_.size(); ++k) {
         Trial& trial = trials_[k];
-        const Node& node = tree_.node(trial.node);
+        const Node& node = tree().node(trial.node);
         trial.is_down = trial.is_down || !node.is_open || node.is_locked;
         std::uint32_t action = 0;
         if (!trial.is_down) {
             const EdgeId edge = choose_edge(node, stream);
-            tree_.edge(edge).started += 1;
+            tree().edge(edge).started += 1;
             trial.hops.push_back({trial.node, edge, 0});
-            action = tree_.edge(edge).action;
+            action = tree().edge(edge).action;
             ++moving;
         }
         std::copy_n(actions_.record(action), action_size_, records_.data() + k * action_size_);
@@ -191,47 +272,47 @@ bool Uct::step_trials(RandomStream& stream, std::int64_t depth, BudgetMeter& met
     solvers::require_done(simulator_,
                           simulator_.get_state(trees_.batch(), 0, trees_.count(), states_.data()));
     for (std::size_t k = 0; k < trials_.size(); ++k)
-        if (!trials_[k].is_down) follow(k, stream, depth + 1);
+        if (!trials_[k].is_down) follow(k, stream, step + 1);
     return true;
 }
 
 // Follows the trial's environment to the node where it is now.
-void Uct::follow(std::size_t k, RandomStream& stream, std::int64_t depth) {
+void Uct::follow(std::size_t k, RandomStream& stream, std::int64_t step) {
     Trial& trial = trials_[k];
     Trial::Hop& hop = trial.hops.back();
     hop.reward = trees_.reward(k);
     const std::byte* const state = states_.data() + k * state_size_;
     NodeId next = Tree::over;
-    if (trees_.is_running(k) && depth < depth_) {
-        const NodeId* const known = tree_.find(state, depth);
-        const Edge& edge = tree_.edge(hop.edge);
+    if (trees_.is_running(k) && step < end_) {
+        const NodeId* const known = tree().find(state, step);
+        const Edge& edge = tree().edge(hop.edge);
         const bool is_full =
             options_.outcomes > 0 &&
             edge.outcome_count >= std::ceil(options_.outcomes * std::sqrt(edge.started));
         if (known) {
             next = *known;
-        } else if (is_full && (next = tree_.seen_outcome(hop.edge, stream.unit())) != Tree::over) {
+        } else if (is_full && (next = tree().seen_outcome(hop.edge, stream.unit())) != Tree::over) {
             // Progressive widening: the trial goes on from an outcome that was seen before.
-            const std::int64_t step = step_ + depth;
             solvers::require_done(
                 simulator_, simulator_.set_state(trees_.batch(), static_cast<std::int64_t>(k), 1,
-                                                 tree_.state(next), &step));
+                                                 tree().state(next), &step));
         } else {
-            next = tree_.node_of(state, depth);
-            add_edges(next, trees_.batch(), static_cast<std::int64_t>(k));
+            next = tree().node_of(state, step);
+            if (!is_determinised())  // otherwise it knows what is legal
+                add_edges(next, trees_.batch(), static_cast<std::int64_t>(k));
             new_nodes_.push_back(next);
         }
     }
-    tree_.add_outcome(hop.edge, next);
+    tree().add_outcome(hop.edge, next);
     trial.node = next;
 }
 
 void Uct::back_up(const Trial& trial) {
-    double rest = tree_.node(trial.node).value;
+    double rest = tree().node(trial.node).value;
     for (std::size_t h = trial.hops.size(); h-- > 0;) {
         const Trial::Hop& hop = trial.hops[h];
-        tree_.back_up(hop.node, hop.edge, hop.reward, rest);
-        rest = hop.reward + tree_.discount() * rest;
+        tree().back_up(hop.node, hop.edge, hop.reward, rest);
+        rest = hop.reward + tree().discount() * rest;
     }
     note_return(rest);
 }
@@ -243,16 +324,16 @@ void Uct::note_return(double value) {
 }
 
 EdgeId Uct::best_edge() const {
-    const Node& node = tree_.node(root_);
+    const Node& node = tree().node(root_);
     std::int32_t most = 0;
-    for (const Edge& edge : tree_.edges(node)) most = std::max(most, edge.weight());
+    for (const Edge& edge : tree().edges(node)) most = std::max(most, edge.weight());
     EdgeId chosen = node.first_edge;
     double best = -std::numeric_limits<double>::infinity();
-    for (const Edge& edge : tree_.edges(node)) {
+    for (const Edge& edge : tree().edges(node)) {
         if (edge.weight() == 0 || edge.weight() < least_tried * most || !(edge.value > best))
             continue;
         best = edge.value;
-        chosen = tree_.id_of(edge);
+        chosen = tree().id_of(edge);
     }
     return chosen;
 }
@@ -260,29 +341,29 @@ EdgeId Uct::best_edge() const {
 void Uct::decide(const DecisionPoint& point, std::byte* action, Explanation* explanation) {
     RandomStream stream(options_.seed, point.episode, point.step);
     BudgetMeter meter(options_.budget, point.stops);
-    step_ = point.step;
-    depth_ = std::min(point.left, options_.horizon.value_or(first_depth));
+    choose_memory(point);
     choose_policy(point, stream, meter);
     const bool is_open = open_root(point, stream, meter);
-    const Node& root = tree_.node(root_);
-    if (is_open && !root.is_locked && root.edge_count > 1)
-        while (meter.has_room(static_cast<std::int64_t>(trials_.size()) * depth_, 0) &&
+    const bool is_locked = tree().node(root_).is_locked;
+    if (is_open && !is_locked && tree().node(root_).edge_count > 1)
+        while (meter.has_room(static_cast<std::int64_t>(trials_.size()) * (end_ - step_), 0) &&
                run_trials(point, stream, meter)) {
         }
-    if (explanation && root.is_locked)
+    if (explanation && is_locked)
         explanation->note = "no action changes the state or the reward any more";
     const EdgeId chosen = best_edge();
-    std::copy_n(actions_.record(tree_.edge(chosen).action), action_size_, action);
+    std::copy_n(actions_.record(tree().edge(chosen).action), action_size_, action);
     if (explanation) note_explanation(*explanation, chosen, meter);
+    tree().keep_below(chosen);
 }
 
 void Uct::note_explanation(Explanation& explanation, EdgeId chosen, const BudgetMeter& meter) {
-    explanation.depth = depth_;
+    explanation.depth = end_ - step_;
     explanation.iterations = meter.iterations();
     explanation.steps = meter.steps();
-    const Node& root = tree_.node(root_);
+    const Node& root = tree().node(root_);
     explanation.chosen = chosen - root.first_edge;
-    for (const Edge& edge : tree_.edges(root)) {
+    for (const Edge& edge : tree().edges(root)) {
         const std::byte* const record = actions_.record(edge.action);
         explanation.candidates.push_back(
             {"action", {record, record + action_size_}, edge.value, 0, edge.done + edge.estimates});

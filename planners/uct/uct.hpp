@@ -8,11 +8,14 @@
 #include "planners/simulation/finite_actions.hpp"
 #include "planners/simulation/futures.hpp"
 #include "planners/simulation/random_stream.hpp"
+#include "planners/uct/determinised_problem.hpp"
 #include "planners/uct/tree.hpp"
+#include "planners/uct/typical_steps.hpp"
 #include "planners/uct/uct_options.hpp"
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace rddlc::planners {
@@ -35,6 +38,19 @@ class Uct : public Planner {
         std::vector<Hop> hops;
     };
 
+    // The memory of an episode, from one decision to the next.
+    struct Memory {
+        Tree tree;
+        DeterminisedProblem determinised;
+        std::int64_t end = 0;         // the step that the tree looks ahead to
+        std::int64_t leaf_depth = 0;  // steps by which a policy values a new state, at most
+    };
+
+    bool is_determinised() const { return initial_ == Initial::Determinised; }
+    void choose_memory(const DecisionPoint& point);
+    void choose_lookahead(BudgetMeter& meter);
+    Tree& tree() { return memory_->tree; }
+    const Tree& tree() const { return memory_->tree; }
     void choose_policy(const DecisionPoint& point, RandomStream& stream, BudgetMeter& meter);
     bool open_root(const DecisionPoint& point, RandomStream& stream, BudgetMeter& meter);
     // The trials of one round; false where time was up, and nothing has changed but counts.
@@ -42,14 +58,30 @@ class Uct : public Planner {
     bool step_trials(RandomStream& stream, std::int64_t depth, BudgetMeter& meter);
     void follow(std::size_t k, RandomStream& stream, std::int64_t depth);
     EdgeId choose_edge(const Node& node, RandomStream& stream);
+    EdgeId choose_by_prior(const Node& node) const;
+    // The deviation of values that counts as much as a lack of trials, at that node.
+    double bonus(const Node& node) const;
     // Its actions, where environment `place` of the batch stands.
     void add_edges(NodeId node, const rddl_batch* batch, std::int64_t place);
     bool value_new_nodes(const DecisionPoint& point, RandomStream& stream, BudgetMeter& meter,
                          std::size_t draws);
+    // The policy's own action in each new node.
+    bool find_preferred(const DecisionPoint& point, RandomStream& stream, BudgetMeter& meter);
+    bool value_by_determinisation(const DecisionPoint& point, RandomStream& stream,
+                                  BudgetMeter& meter);
+    // The mean rewards of the policy where lookaheads from new nodes end.
+    bool find_later_rewards(const DecisionPoint& point, RandomStream& stream, BudgetMeter& meter);
+    void find_ends();
+    double discounted_steps(std::int64_t steps) const;
+    double estimate(const DeterminisedProblem::Move& move, const Node& node);
+    bool value_by_policy(const DecisionPoint& point, RandomStream& stream, BudgetMeter& meter,
+                         std::size_t draws);
+    void lock(Node& node, double reward);
     void take_values(std::size_t first, std::size_t count);
     bool stays_unchanged(const DecisionPoint& point, std::size_t n, RandomStream& stream,
                          BudgetMeter& meter);
     bool is_unchanged(NodeId id, std::size_t n, std::size_t k) const;
+    void note_range();
     void back_up(const Trial& trial);
     void note_return(double value);
     double value_of(std::size_t k) const;
@@ -58,16 +90,20 @@ class Uct : public Planner {
 
     const rddl_simulator& simulator_;
     UctOptions options_;
+    Initial initial_;
     std::size_t state_size_, action_size_;
     FiniteActions actions_;
     Futures trees_;  // trials
     Continuations continuations_;
-    std::vector<BasePolicy> policies_;  // that may play on
-    std::size_t policy_ = 0;            // that does
-    Tree tree_;
+    std::vector<BasePolicy> policies_;             // that may play on
+    std::size_t policy_ = 0;                       // that does
+    std::optional<TypicalSteps> typical_steps_;    // of Initial::Determinised
+    std::size_t most_bytes_;                       // of what is kept of an episode
+    std::vector<std::optional<Memory>> memories_;  // by place
+    Memory* memory_ = nullptr;                     // of the decision
     NodeId root_ = 0;
-    std::int64_t depth_ = 0;  // of the search: steps that are looked ahead
-    std::int64_t step_ = 0;   // of the episode
+    std::int64_t step_ = 0;  // of the episode
+    std::int64_t end_ = 0;   // the step that the search looks ahead to
     std::vector<Trial> trials_;
     std::vector<std::uint64_t> streams_;
     std::vector<std::byte> records_, states_;
@@ -84,8 +120,10 @@ class Uct : public Planner {
     // Edges of new nodes whose action has changed nothing, as a count for each node.
     std::vector<std::uint32_t> unchanged_;
     std::vector<double> unchanged_rewards_;
-    double least_ = 0, most_ = 0;  // returns that were seen
-    std::int64_t leaf_depth_ = 0;  // steps by which a new state is valued, at most
+    std::vector<DeterminisedProblem::StateId>
+        ends_;  // of lookaheads, whose later rewards are sought
+    std::vector<DeterminisedProblem::StateId> determinised_states_;  // of new nodes
+    double least_ = 0, most_ = 0;                                    // returns that were seen
 };
 
 }  // namespace rddlc::planners

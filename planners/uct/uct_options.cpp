@@ -29,6 +29,12 @@ solvers::OptionTable<UctOptions> make_uct_table() {
              "0: "
              "all (4)"},
             [](auto& o) -> auto& { return o.outcomes; }, 0.0, 1e9),
+        number_option<UctOptions, int>(
+            {"lookahead", "lookahead", "N",
+             "States that a search in the determinised problem may meet, beginning with that of "
+             "the "
+             "decision: it is as deep as that allows (64)"},
+            [](auto& o) -> auto& { return o.lookahead; }, 1, 1 << 20),
         choice_option<UctOptions, Backup>(
             {"backup", "backup", "HOW",
              "A state is worth its best action by the outcomes that were seen (max, the default), "
@@ -37,10 +43,13 @@ solvers::OptionTable<UctOptions> make_uct_table() {
             {{"max", Backup::Max}, {"mean", Backup::Mean}}),
         choice_option<UctOptions, Initial>(
             {"initial", "initial", "HOW",
-             "A new state is valued by each of its actions, and the policy after it (lookahead, "
-             "the default), or by the policy alone (rollout)"},
+             "A new state is valued by a search in the determinised problem (determinised; the "
+             "default without a policy), by each of its actions and the policy after it "
+             "(lookahead; the default with a policy), or by the policy alone (rollout)"},
             [](auto& o) -> auto& { return o.initial; },
-            {{"lookahead", Initial::Lookahead}, {"rollout", Initial::Rollout}}),
+            {{"determinised", Initial::Determinised},
+             {"lookahead", Initial::Lookahead},
+             {"rollout", Initial::Rollout}}),
     };
     table.insert(table.end(), std::make_move_iterator(own.begin()),
                  std::make_move_iterator(own.end()));

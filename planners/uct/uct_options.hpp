@@ -3,10 +3,12 @@
 
 #include "planners/planner/common_options.hpp"
 
+#include <optional>
+
 namespace rddlc::planners {
 
 enum class Backup { Max, Mean };
-enum class Initial { Lookahead, Rollout };
+enum class Initial { Determinised, Lookahead, Rollout };
 
 struct UctOptions : CommonOptions {
     int lanes = 32;            // trials side by side
@@ -14,7 +16,8 @@ struct UctOptions : CommonOptions {
     double exploration = 0.5;  // in ranges of the returns
     double outcomes = 4;       // of an action that was taken n times, at most outcomes * sqrt(n)
     Backup backup = Backup::Max;
-    Initial initial = Initial::Lookahead;
+    int lookahead = 64;              // states that a search in the determinised problem may meet
+    std::optional<Initial> initial;  // nothing: Lookahead with a policy, else Determinised
 };
 
 const solvers::OptionTable<UctOptions>& uct_option_table();

@@ -1,16 +1,14 @@
 #include "native/dictionary_reader.hpp"
 
+#include "native/numpy_numbers.hpp"
+
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/tuple.h>
 #include <nanobind/stl/vector.h>
 
-#include <cstddef>
 #include <cstdint>
 #include <cstring>
-#include <string>
-#include <tuple>
 #include <utility>
-#include <vector>
 
 namespace nb = nanobind;
 
@@ -18,64 +16,101 @@ namespace rddlc::python {
 
 namespace {
 
-// Name, offset, "bool", "int" or "real", and whether its value is an array.
-using NamedColumn = std::tuple<nb::str, std::size_t, std::string, bool>;
+template <class T>
+T value_at(const std::byte* place) {
+    T value;
+    std::memcpy(&value, place, sizeof value);
+    return value;
+}
 
-// Reads {"pos___c1": number, ...} from the first of the records that a numpy array holds.
-class DictionaryReader {
-  public:
-    DictionaryReader(nb::object records, std::vector<NamedColumn> columns, nb::callable array)
-        : owner_(std::move(records)), columns_(std::move(columns)), array_(std::move(array)) {
-        Py_buffer view{};
-        if (PyObject_GetBuffer(owner_.ptr(), &view, PyBUF_C_CONTIGUOUS) != 0)
-            throw nb::python_error();
-        record_ = static_cast<const std::byte*>(view.buf);
-        PyBuffer_Release(&view);  // the memory stays where it is, as long as its owner
-        for (const NamedColumn& column : columns_) names_[std::get<0>(column)] = nb::none();
+std::int64_t whole_at(const std::byte* place, char stored) {
+    return stored == 'i' ? value_at<std::int64_t>(place) : value_at<std::int8_t>(place);
+}
+
+// Overwrites the number of an array, if it is still as it was made.
+bool overwrite(PyObject* array, const std::byte* place, char stored) {
+    if (stored == 'r') {
+        double* const number = double_in(array);
+        if (number) *number = value_at<double>(place);
+        return number;
     }
-
-    nb::dict read() const {
-        // A copy has room for all values.
-        const auto values = nb::steal<nb::dict>(PyDict_Copy(names_.ptr()));
-        if (!values.is_valid()) throw nb::python_error();
-        for (const auto& [name, offset, stored, is_array] : columns_) {
-            nb::object value = number(record_ + offset, stored.front());
-            if (is_array) value = array_(value);
-            if (PyDict_SetItem(values.ptr(), name.ptr(), value.ptr()) != 0)
-                throw nb::python_error();
-        }
-        return values;
-    }
-
-  private:
-    static nb::object number(const std::byte* place, char stored) {
-        if (stored == 'r') {
-            double value;
-            std::memcpy(&value, place, sizeof value);
-            return nb::steal(PyFloat_FromDouble(value));
-        }
-        std::int64_t value = static_cast<std::int8_t>(*place);
-        if (stored == 'i') std::memcpy(&value, place, sizeof value);
-        return nb::steal(PyLong_FromLongLong(value));
-    }
-
-    nb::object owner_;  // of the record
-    const std::byte* record_ = nullptr;
-    std::vector<NamedColumn> columns_;
-    nb::dict names_;  // without values
-    // numpy.array, which takes half the time without a type, and finds the same.
-    nb::callable array_;
-};
+    std::int64_t* const number = integer_in(array);
+    if (number) *number = whole_at(place, stored);
+    return number;
+}
 
 }  // namespace
+
+DictionaryReader::DictionaryReader(nb::object records, std::vector<NamedColumn> columns)
+    : owner_(std::move(records)), columns_(std::move(columns)) {
+    Py_buffer view{};
+    if (PyObject_GetBuffer(owner_.ptr(), &view, PyBUF_C_CONTIGUOUS) != 0) throw nb::python_error();
+    record_ = static_cast<const std::byte*>(view.buf);
+    PyBuffer_Release(&view);  // the memory stays where it is, as long as its owner
+    for (const NamedColumn& column : columns_) names_[std::get<0>(column)] = nb::none();
+}
+
+nb::dict DictionaryReader::read() {
+    turn_ = 1 - turn_;
+    Returned& returned = returned_[turn_];
+    if (!refill(returned)) returned = made();
+    return returned.values;
+}
+
+DictionaryReader::Returned DictionaryReader::made() const {
+    // A copy has room for all values.
+    Returned returned{nb::steal<nb::dict>(PyDict_Copy(names_.ptr())), {}};
+    if (!returned.values.is_valid()) throw nb::python_error();
+    for (std::size_t i = 0; i < columns_.size(); ++i) {
+        const nb::object value = value_of(i);
+        if (PyDict_SetItem(returned.values.ptr(), std::get<0>(columns_[i]).ptr(), value.ptr()) != 0)
+            throw nb::python_error();
+        returned.arrays.push_back(std::get<3>(columns_[i]) ? value : nb::object());
+    }
+    return returned;
+}
+
+// False where the program holds the dictionary, or has changed its names; a value that it holds or
+// has changed is replaced.
+bool DictionaryReader::refill(Returned& returned) const {
+    PyObject* const values = returned.values.ptr();
+    if (!values || Py_REFCNT(values) != 1 ||
+        PyDict_Size(values) != static_cast<Py_ssize_t>(columns_.size()))
+        return false;
+    PyObject *name = nullptr, *value = nullptr;
+    Py_ssize_t position = 0;
+    for (std::size_t i = 0; PyDict_Next(values, &position, &name, &value); ++i) {
+        const auto& [expected, offset, stored, is_array] = columns_[i];
+        if (name != expected.ptr()) return false;
+        // An array that is only here and in the dictionary.
+        const bool is_dropped =
+            is_array && value == returned.arrays[i].ptr() && Py_REFCNT(value) == 2;
+        if (is_dropped && overwrite(value, record_ + offset, stored.front())) continue;
+        const nb::object current = value_of(i);
+        if (current.ptr() == value) continue;
+        if (PyDict_SetItem(values, name, current.ptr()) != 0) throw nb::python_error();
+        if (is_array) returned.arrays[i] = current;
+    }
+    return true;
+}
+
+nb::object DictionaryReader::value_of(std::size_t column) const {
+    const auto& [name, offset, stored, is_array] = columns_[column];
+    const std::byte* const place = record_ + offset;
+    if (stored.front() == 'r') {
+        const auto number = value_at<double>(place);
+        return is_array ? array_of(number) : nb::steal(PyFloat_FromDouble(number));
+    }
+    const std::int64_t whole = whole_at(place, stored.front());
+    return is_array ? array_of(whole) : nb::steal(PyLong_FromLongLong(whole));
+}
 
 void add_dictionary_reader(nb::module_& module) {
     nb::class_<DictionaryReader>(
         module, "DictionaryReader",
-        "Reads the first record as a dictionary of numbers, or of arrays of "
-        "shape () by `array`.")
-        .def(nb::init<nb::object, std::vector<NamedColumn>, nb::callable>(), nb::arg("records"),
-             nb::arg("columns"), nb::arg("array"))
+        "Reads the first record as a dictionary of numbers, or of arrays of shape ().")
+        .def(nb::init<nb::object, std::vector<NamedColumn>>(), nb::arg("records"),
+             nb::arg("columns"))
         .def("read", &DictionaryReader::read);
 }
 

@@ -1,5 +1,7 @@
 #include "native/dictionary_writer.hpp"
 
+#include "native/numpy_numbers.hpp"
+
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/tuple.h>
 #include <nanobind/stl/vector.h>
@@ -20,10 +22,10 @@ namespace {
 
 constexpr double most_exact = 9007199254740992.0;  // 2^53: up to here an int is a double
 
-// A number of Python or numpy that is not an array.
+// A number of Python or numpy, or the one in an array of shape ().
 std::optional<double> number_of(PyObject* given) {
     if (PyFloat_Check(given)) return PyFloat_AsDouble(given);
-    if (!PyLong_Check(given)) return std::nullopt;
+    if (!PyLong_Check(given)) return numpy_number(given);
     int overflow = 0;
     const long long whole = PyLong_AsLongLongAndOverflow(given, &overflow);
     if (overflow != 0) return std::nullopt;

@@ -1,5 +1,6 @@
 #include "native/learners.hpp"
 
+#include "learning/imitation.hpp"
 #include "learning/learned_policy.hpp"
 #include "native/env_pool.hpp"
 #include "native/long_calls.hpp"
@@ -161,6 +162,16 @@ class Learner {
         : simulator_(std::move(simulator)), trainee_(std::move(trainee)), stop_(std::move(stop)) {}
 
     bool done() { return trainee().done(); }
+    // Imitates what it is to imitate, before the first update, and says what that was; "": nothing.
+    // Ctrl-C ends it, and a learner that has been interrupted is of no use.
+    std::string prepare() {
+        calls_.finish();
+        if (!trainee_.prepare) return "";
+        *stop_ = false;
+        const auto said = std::make_shared<std::string>();
+        calls_.run([this, said] { *said = trainee_.prepare(); }, {}, [this] { *stop_ = true; });
+        return *said;
+    }
     // Ctrl-C ends it early, and leaves what was learned before it.
     void update() {
         calls_.finish();
@@ -216,16 +227,28 @@ solvers::OptionTable<solvers::CgpOptions> cgp_keywords() {
 
 Learner ppo(const LoadedProblem& problem, const nb::dict& given) {
     solvers::PpoOptions ppo;
-    set_options(ppo_keywords(), given, ppo);
+    workbench::Imitation imitation;
+    std::vector<solvers::OptionText> known;
+    set_options(workbench::imitation_option_table(), given, imitation, known);
+    set_options(ppo_keywords(), given, ppo, known);
+    refuse_unknown(given, known);
+    if (!imitation.policy.empty() && ppo.recurrent > 0)
+        throw Refused("imitate does not go with recurrent");
     const auto stop = std::make_shared<std::atomic<bool>>(false);
     ppo.stops = asks(stop);
     const nb::gil_scoped_release released;
-    return {problem.simulator, solvers::ppo_trainee(*problem.simulator, ppo), stop};
+    const rddl_simulator& simulator = *problem.simulator;
+    const solvers::Demonstrate shown =
+        workbench::demonstrate(simulator, imitation, ppo.seed, ppo.memory_limit,
+                               {.derivatives = problem.derivatives}, ppo.stops);
+    return {problem.simulator, solvers::ppo_trainee(simulator, ppo, {}, shown), stop};
 }
 
 Learner cgp(const LoadedProblem& problem, const nb::dict& given) {
     solvers::CgpOptions cgp;
-    set_options(cgp_keywords(), given, cgp);
+    std::vector<solvers::OptionText> known;
+    set_options(cgp_keywords(), given, cgp, known);
+    refuse_unknown(given, known);
     const auto stop = std::make_shared<std::atomic<bool>>(false);
     cgp.stops = asks(stop);
     const nb::gil_scoped_release released;
@@ -326,6 +349,7 @@ void add_learners(nb::module_& module) {
     nb::class_<Learner>(module, "Learner", "A learner at work.")
         .def_prop_ro("done", &Learner::done)
         .def_prop_ro("steps", &Learner::steps)
+        .def("prepare", &Learner::prepare)
         .def("update", &Learner::update)
         .def("row", &Learner::row)
         .def("policy_text", &Learner::policy_text)
@@ -334,7 +358,9 @@ void add_learners(nb::module_& module) {
         .def("load", &Learner::load);
     module.def("ppo", ppo, nb::arg("simulator"), nb::arg("options"));
     module.def("cgp", cgp, nb::arg("simulator"), nb::arg("options"));
-    module.def("ppo_options", [] { return options_help(ppo_keywords()); });
+    module.def("ppo_options", [] {
+        return options_help(workbench::imitation_option_table()) + options_help(ppo_keywords());
+    });
     module.def("cgp_options", [] { return options_help(cgp_keywords()); });
     module.def("planner", planner, nb::arg("simulator"), nb::arg("text"));
     module.def("planner_options", planner_options, nb::arg("name"));

@@ -33,11 +33,11 @@ inline std::vector<std::string> words_of(nanobind::handle value,
     return words;
 }
 
-// Throws Refused, with the keyword, where one is not known, or has a value that it does not take.
+// Sets the options of a table that are given, and adds all of them to `known`. Throws Refused, with
+// the keyword, for a value that an option does not take.
 template <class Options>
 void set_options(const solvers::OptionTable<Options>& table, const nanobind::dict& given,
-                 Options& options) {
-    std::vector<solvers::OptionText> known;
+                 Options& options, std::vector<solvers::OptionText>& known) {
     for (const solvers::LearnerOption<Options>& option : table) {
         known.push_back(option);
         if (!given.contains(option.keyword.c_str())) continue;
@@ -48,6 +48,10 @@ void set_options(const solvers::OptionTable<Options>& table, const nanobind::dic
             throw Refused(fmt::format("{}: {}", option.keyword, refused.what()));
         }
     }
+}
+
+inline void refuse_unknown(const nanobind::dict& given,
+                           const std::vector<solvers::OptionText>& known) {
     for (const auto [name, value] : given) {
         const std::string keyword = utf8_text(name);
         if (std::ranges::find(known, keyword, &solvers::OptionText::keyword) == known.end())

@@ -32,7 +32,7 @@ from .translation.legal import go_on_from, legal_space
 from .translation.masks import ActionMasks
 from .translation.named_values import state_from
 from .translation.protocols import ActionWriter, ObservationReader
-from .translation.readers import LearnersReader, dictionary_reader, observation_reader
+from .translation.readers import GroundedReader, LearnersReader, dictionary_reader, observation_reader
 
 OBSERVATIONS = ("dict", "flat")
 ACTIONS = ("dict", "simplified", "box")
@@ -113,6 +113,9 @@ class RDDLEnv(ProblemProperties, gymnasium.Env[Any, Any]):
         self._enforces = forms["enforce_action_constraints"]
         self._tells_mask = forms["action_mask"]
         self._ended = 0
+        self._stepper: _native.DictionaryStepper | None = None
+        if isinstance(self._reader, GroundedReader) and isinstance(self._writer, SingleActions):
+            self._stepper = _native.DictionaryStepper(batch, self._writer.native, self._reader.native)
         self._renderer: Renderer | None = None
         if self.render_mode is not None:
             self._renderer = self._new_renderer()
@@ -215,17 +218,22 @@ class RDDLEnv(ProblemProperties, gymnasium.Env[Any, Any]):
             raise self._no_step()
         if self._enforces:
             check_preconditions(self.problem, self._batch, self._writer, action)
-        self._writer.step(action)
-        ended = self._causes.item()
-        info: dict[str, Any] = {}
-        if ended or self._tells_mask:
-            self._ended = ended
-            self._tell(ended, info)
+        result = self._stepper.step(action) if self._stepper is not None else None
+        if result is None:
+            self._writer.step(action)
+            result = self._result()
+        if result[2] or result[3] or self._tells_mask:
+            self._ended = self._causes.item()
+            self._tell(self._ended, result[4])
         if self._renderer is not None:
-            self._renderer.add_step(self._batch, causes.text_of(ended))
+            self._renderer.add_step(self._batch, causes.text_of(self._ended))
             self._show(self._renderer)
-        terminated, truncated = (ended & 1) != 0, ended > 1
-        return self._reader.read(), self._rewards.item(), terminated, truncated, info
+        return result
+
+    def _result(self) -> tuple[Any, float, bool, bool, dict[str, Any]]:
+        """Of the step that the batch has made, whose cause is not told yet."""
+        ended = self._causes.item()
+        return self._reader.read(), self._rewards.item(), (ended & 1) != 0, ended > 1, {}
 
     def _no_step(self) -> Error:
         if self._seed is None:

@@ -159,7 +159,12 @@ class Derivatives:
     def _rows(
         self, states: Any, actions: Any, seeds: Any
     ) -> tuple[Array, Array, NDArray[np.uint64]]:
-        count = len(states)
+        try:
+            count = len(states)
+        except TypeError:  # a number, None
+            raise ArgumentError(
+                f"states: rows of {len(self.state_names)} numbers, not a {type(states).__name__}"
+            ) from None
         states = _array("states", states, (count, len(self.state_names)))
         actions = _array("actions", actions, (count, len(self.action_names)))
         return states, actions, _seeds(seeds, count)

@@ -3,6 +3,7 @@ table of the solvers, which help(rddlc.PPO) prints."""
 
 from __future__ import annotations
 
+import os
 from collections.abc import Sequence
 from typing import TypedDict
 
@@ -14,6 +15,8 @@ class LearnerOptions(TypedDict, total=False):
 
 
 class PPOOptions(LearnerOptions, total=False):
+    imitate: str | os.PathLike[str]
+    imitate_episodes: int
     preset: str
     steps: int
     environments: int

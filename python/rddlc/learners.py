@@ -108,10 +108,15 @@ class Learner:
             )
         before = self.steps
         learner = self._new_native(self._options | {self.total: before + amount})
-        if self._native is not None:
+        said = ""
+        if self._native is None:
+            said = learner.prepare()
+        else:
             learner.load(self._native.save())
         self._forget_actor()
         self._native = learner
+        if said:
+            self._show_imitation(said, evaluations, evaluation_episodes)
         made, evaluated_at = 0, -1
         while not learner.done:
             self._forget_actor()
@@ -129,6 +134,13 @@ class Learner:
         if evaluations and evaluated_at != self.steps:
             self._evaluate_for_best(evaluation_episodes)
         return self
+
+    def _show_imitation(self, said: str, evaluations: int, episodes: int) -> None:
+        """The policy that imitates counts as the first one that was learned."""
+        if self._verbose:
+            print(said)
+        if evaluations:
+            self._evaluate_for_best(episodes)
 
     def _amount_of(self, amount: int | None, total_timesteps: int | None) -> int:
         if total_timesteps is not None and self.total != "steps":
@@ -300,6 +312,8 @@ class PPO(Learner):
     ) -> None:
         super().__init__(env_or_problem, verbose=verbose, **options)
         self._new_native({"steps": 1, **options})  # refuses options that cannot be
+        if "imitate" in options:
+            _native.planner(self.problem.simulator, str(options["imitate"]))  # refuses one that cannot act
 
     def _new_native(self, options: dict[str, Any]) -> _native.Learner:
         return _native.ppo(self.problem.simulator, options)

@@ -6,7 +6,7 @@ import math
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import product
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -74,6 +74,24 @@ class Condition:
     source: Source
 
 
+# What programs ask of the model that pyRDDLGym's env.model is, and where ours has it.
+OF_PYRDDLGYM = {
+    "state_fluents": "states",
+    "action_fluents": "actions",
+    "observ_fluents": "observed",
+    "non_fluents": "with_role('non-fluent'), and env.problem.constants(name)",
+    "interm_fluents": "with_role('interm-fluent')",
+    "derived_fluents": "with_role('derived-fluent')",
+    "type_to_objects": "types[...].objects",
+    "domain_name": "domain",
+    "instance_name": "instance",
+    "variable_ranges": "fluents[...].range",
+    "variable_types": "fluents[...].role",
+    "variable_params": "fluents[...].parameters",
+    "variable_groundings": "fluents[...].groundings",
+}
+
+
 @dataclass(frozen=True, eq=False)
 class Model:
     """A problem as its instance describes it."""
@@ -98,6 +116,13 @@ class Model:
     """Bytes of a record."""
     action_size: int
     observation_size: int
+
+    if not TYPE_CHECKING:  # type checkers report what is missing by themselves
+
+        def __getattr__(self, name: str) -> Any:
+            ours = f"model.{OF_PYRDDLGYM[name]} has it; " if name in OF_PYRDDLGYM else ""
+            theirs = "environments of rddlc.backend.make have pyRDDLGym's own model"
+            raise AttributeError(f"rddlc's model has no '{name}'; {ours}{theirs}", name=name, obj=self)
 
     def with_role(self, role: str) -> list[Fluent]:
         """Fluents of a role, in declaration order."""

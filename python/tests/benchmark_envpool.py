@@ -4,8 +4,8 @@ in one thread, with 1,024 environments each:
     PYTHONPATH=build/python python python/tests/benchmark_envpool.py
 
 Needs envpool and rddlrepository. Actions are drawn once; both begin episodes anew where they end (EnvPool
-in the next step, so ours also do). By the clock, the best of parts that take turns, so compare within a
-line.
+in the next step, so ours also do). Seconds are those of the processor, all threads together, and the best of
+parts that take turns.
 """
 
 from __future__ import annotations
@@ -48,8 +48,8 @@ def actions_of(envs: Any) -> Any:
 
 
 def rate(envs: Any, actions: Any) -> float:
-    begin, steps = time.perf_counter(), 0
-    while (elapsed := time.perf_counter() - begin) < SECONDS:
+    begin, steps = time.process_time(), 0
+    while (elapsed := time.process_time() - begin) < SECONDS:
         for _ in range(10):
             envs.step(actions)
         steps += 10 * ENVIRONMENTS

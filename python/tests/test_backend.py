@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import copy
+import re
 import unittest
 import warnings
 
@@ -12,6 +14,7 @@ from pyRDDLGym.core.policy import NoOpAgent, RandomAgent
 
 import rddlc
 from rddlc.backend import RDDLSimulator
+from rddlc.model import OF_PYRDDLGYM
 
 # Deterministic ones, with reals, bools, objects; and a partially observed one.
 PROBLEMS = ["HVAC_ippc2023", "MarsRover_ippc2023", "MountainCar_ippc2023", "Reacher_physics"]
@@ -64,6 +67,13 @@ class Backend(unittest.TestCase):
         agent = RandomAgent(ours.action_space, num_actions=ours.max_allowed_actions, seed=1)
         found = agent.evaluate(ours, episodes=2, seed=1)
         self.assertTrue(np.isfinite(found["mean"]))
+        for name in ("MountainCar_ippc2023", "HVAC_ippc2023", "MarsRover_ippc2023"):  # with reals
+            returns = []
+            for env in pair(name):
+                env.horizon = 5
+                agent = RandomAgent(env.action_space, num_actions=len(env.action_space), seed=1)
+                returns.append(agent.evaluate(env, episodes=2, seed=1)["mean"])
+            np.testing.assert_allclose(*returns, rtol=1e-9, err_msg=name)
         ours, _ = pair("MountainCar_ippc2023", enforce_action_constraints=True)
         ours.reset(seed=1)
         ours.step({"action": 0.5})
@@ -81,6 +91,20 @@ class Agents(unittest.TestCase):
             env = rddlc.make(name, 1, engine="interpreter")
             found = kind(env.action_space, env.max_allowed_actions).evaluate(env, episodes=2, seed=1)
             self.assertTrue(np.isfinite(found["mean"]))
+
+    def test_names_of_pyrddlgyms_model_lead_to_ours(self) -> None:
+        model = rddlc.make("HVAC_ippc2023", 1, engine="interpreter").model
+        theirs = pyRDDLGym.make("HVAC_ippc2023", "1").model
+        for name, ours in OF_PYRDDLGYM.items():
+            self.assertTrue(hasattr(theirs, name), name)
+            with self.assertRaisesRegex(AttributeError, "rddlc.backend.make") as refused:
+                getattr(model, name)
+            self.assertIn(ours, str(refused.exception))
+            self.assertTrue(hasattr(model, re.match(r"\w+", ours)[0]), ours)
+        self.assertEqual(list(model.types["zone"].objects), theirs.type_to_objects["zone"])
+        self.assertEqual([each.name for each in model.states], list(theirs.state_fluents))
+        self.assertFalse(hasattr(model, "no_such_thing"))
+        self.assertIsNot(copy.deepcopy(model), model)
 
 
 if __name__ == "__main__":

@@ -13,6 +13,7 @@ import pickle
 import tempfile
 import unittest
 import unittest.mock
+import warnings
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import Any
@@ -61,6 +62,56 @@ class Dictionaries(unittest.TestCase):
         observation, _ = env.reset(seed=1)
         computers = env.model.types["computer"].objects
         self.assertEqual(list(observation), [f"running___{name}" for name in computers])
+
+    def test_what_a_program_holds_of_observations_stays_as_it_is(self) -> None:
+        ways: dict[str, Any] = {
+            "all": lambda seen: seen,
+            "its items": lambda seen: dict(seen),
+            "an array": lambda seen: {"filled": seen["filled"]},
+            "a view": lambda seen: {"filled": seen["filled"][...]},
+            "memory": lambda seen: {"filled": memoryview(seen["filled"])},
+        }
+        for way, hold in ways.items():
+            env = written("counters")
+            kept = [hold(env.reset(seed=1)[0])]
+            kept += [hold(env.step({"add___a": 1, "push": 0.5})[0]) for _ in range(4)]
+            found = [{name: float(np.asarray(value)) for name, value in each.items()} for each in kept]
+            self.assertEqual([each["filled"] for each in found], [0.0, 0.5, 1.0, 1.5, 2.0], way)
+            self.assertEqual([each.get("count___a", at) for at, each in enumerate(found)], [0, 1, 2, 3, 4], way)
+
+    def test_what_a_program_does_to_an_observation_leaves_no_trace(self) -> None:
+        def unwritable(seen: Any) -> None:
+            seen["filled"].setflags(write=False)
+
+        def retyped(seen: Any) -> None:
+            seen["filled"].dtype = np.int64  # deprecated since numpy 2.5
+
+        def reordered(seen: Any) -> None:
+            seen["count___a"] = seen.pop("count___a")
+
+        for change in (
+            unwritable,
+            retyped,
+            reordered,
+            lambda seen: seen.clear(),
+            lambda seen: seen.update(filled=None, shade="red", count___a=7),
+            lambda seen: seen.update(more=1),
+            lambda seen: seen.pop("shade"),
+            lambda seen: seen["filled"].__iadd__(3),
+            lambda seen: seen.update(filled=seen["count___a"], count___a=seen["filled"]),
+        ):
+            env, other = written("counters"), written("counters")
+            for each in (env, other):
+                each.reset(seed=1)
+            for _ in range(4):
+                found = env.step({"add___a": 1, "push": 0.5})[0]
+                expected = other.step({"add___a": 1, "push": 0.5})[0]
+                self.assertEqual(list(found), list(expected))
+                self.assertEqual(repr(found), repr(expected))
+                self.assertTrue(found["filled"].flags.writeable)
+                with warnings.catch_warnings():
+                    warnings.simplefilter("ignore")
+                    change(found)
 
     def test_lifted_and_grounded_names_set_the_same_values(self) -> None:
         env = example("network")

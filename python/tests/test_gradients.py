@@ -80,6 +80,10 @@ class Gradients(unittest.TestCase):
         step = Derivatives(rddlc.make(*NETWORK))
         with self.assertRaisesRegex(rddlc.ArgumentError, "the shape is"):
             step.step(np.zeros((1, 2)), np.zeros((1, 1)))
+        with self.assertRaisesRegex(rddlc.ArgumentError, "states: rows of .* numbers, not a NoneType"):
+            step.step(None, None)
+        with self.assertRaisesRegex(rddlc.ArgumentError, "actions: the shape is"):
+            step.step(np.zeros((1, len(step.state_names))), None)
         with self.assertRaisesRegex(rddlc.ArgumentError, "relax"):
             Derivatives(rddlc.make(*NETWORK), relax="no")
         with self.assertRaisesRegex(rddlc.ArgumentError, "sharpness"):

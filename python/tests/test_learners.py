@@ -292,7 +292,7 @@ class Learners(unittest.TestCase):
             entropy=0.01, gradient_norm=0, target_kl=0.1, noise="sde", sde_steps=4, correlation=0.5,
             log_std=-1.0, squash=True, curiosity=False, hidden=(8, 8), activation="relu", stack=2,
             recurrent=0, segment=4, time_input="on", bootstrap=True, threads=1, seed=2**64 - 1,
-            memory_limit=2**30, preset="sb3",
+            memory_limit=2**30, preset="sb3", imitate="noop", imitate_episodes=1,
         ).learn(128)  # fmt: skip
         rddlc.CGP(
             problem, children=4, nodes=9, constants=0, levels_back=3, mutation="gene",
@@ -463,6 +463,36 @@ class Verbs(unittest.TestCase):
             self.assertEqual(model.steps, 256 + 64)  # the threshold ends it
             again = rddlc.PPO.load(Path(folder) / "best_model.json", model.problem)
             self.assertEqual(again.evaluate(2).returns.mean, best.best_mean_reward)
+
+    def test_ppo_begins_as_a_policy_acts(self) -> None:
+        problem = example("mountain_car").problem
+        small = {"environments": 4, "rollout": 16, "minibatch": 64, "hidden": 16, "seed": 1}
+        self.assertLess(rddlc.PPO(problem, **small).learn(64).best.evaluate(1).returns.mean, 1)
+        with tempfile.TemporaryDirectory() as folder:
+            driver = rddlc.CGP(problem, seed=1).learn(20)
+            file = driver.save(Path(folder) / "driver")
+            model = rddlc.PPO(problem, imitate=file, imitate_episodes=4, verbose=1, **small)
+            with redirect_stdout(io.StringIO()) as printed:
+                model.learn(64)
+        self.assertIn("steps are imitated, whose episodes return 96.0312", printed.getvalue())
+        self.assertIn("\n0 steps: return", printed.getvalue(), "the policy that imitates is evaluated")
+        self.assertGreater(model.best_evaluation.returns.mean, 80)
+        model.learn(64)  # the file is gone: a learner that has begun needs no imitation
+        self.assertGreater(model.best_evaluation.returns.mean, 80)
+        planned = rddlc.PPO(problem, imitate="plan:cem,steps=200", imitate_episodes=1, **small)
+        self.assertEqual(planned.learn(64).steps, 64)
+
+    def test_what_cannot_be_imitated_is_refused(self) -> None:
+        problem = example("mountain_car").problem
+        for options, said in (
+            ({"imitate": "plan:none"}, "imitate: .*none"),
+            ({"imitate": "plan:cem,step=1"}, "imitate: .*step"),
+            ({"imitate": "no_such_file"}, "no_such_file"),
+            ({"imitate": "noop", "recurrent": 4}, "recurrent"),
+            ({"imitate": "noop", "imitate_episodes": 0}, "imitate_episodes"),
+        ):
+            with self.assertRaisesRegex(rddlc.Error, said):
+                rddlc.PPO(problem, **options)
 
     def test_options_are_typed_as_they_are(self) -> None:
         for kind, options in ((rddlc.PPO, PPOOptions), (rddlc.CGP, CGPOptions)):

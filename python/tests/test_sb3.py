@@ -95,6 +95,8 @@ class StableBaselines(unittest.TestCase):
         envs = sb3.make_vec(
             example("mountain_car").problem, num_envs=4, render_mode="rgb_array", render_size=(60, 40)
         )
+        with self.assertRaisesRegex(rddlc.Error, "reset"):
+            envs.render()
         envs.reset()
         self.assertEqual(envs.render().shape, (80, 120, 3))
 

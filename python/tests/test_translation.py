@@ -33,7 +33,8 @@ class Refuser:
 
 
 def slow(env: Any) -> Any:
-    env._writer._native = env._writer._native_asked = env._writer._row_writer = Refuser()
+    env._stepper = None
+    env._writer.native = env._writer._native_asked = env._writer._row_writer = Refuser()
     return env
 
 
@@ -72,14 +73,14 @@ class NativeWriters(unittest.TestCase):
                 with self.subTest(problem=problem.name, vectorized=vectorized):
                     env = rddlc.RDDLEnv(problem, vectorized=vectorized)
                     env.reset(seed=1)
-                    self.assertTrue(env._writer._native.write(env.action_space.sample()))
+                    self.assertTrue(env._writer.native.write(env.action_space.sample()))
 
     def test_common_forms_of_values_are_one_value(self) -> None:
         env = rddlc.make(problem_of("counters"))
         env.reset(seed=1)
         before, after = env.get_state(), set()
         for two in (2, 2.0, np.int64(2), np.int32(2), np.float32(2), np.array(2), np.array([2.0])):
-            self.assertTrue(env._writer._native.write({"add___b": two}), repr(two))
+            self.assertTrue(env._writer.native.write({"add___b": two}), repr(two))
             env.set_state(before)
             env.step({"add___b": two})
             after.add(env.get_state())
@@ -88,7 +89,7 @@ class NativeWriters(unittest.TestCase):
     def test_the_rest_is_left_to_python(self) -> None:
         env = rddlc.make(problem_of("counters_two"))
         env.reset(seed=1)
-        write = env._writer._native.write
+        write = env._writer.native.write
         for action in (
             None,
             [],

@@ -61,10 +61,12 @@ def entries(lines: list[str]) -> list[tuple[str, str]]:
     return found
 
 
+def escaped(text: str) -> str:
+    return re.sub(r"([|<>*_])", r"\\\1", text)
+
+
 def table(title: str, lines: list[str]) -> list[str]:
-    def cell(text: str) -> str:
-        return re.sub(r"([|<>*_])", r"\\\1", text)
-    rows = [f"| `{name.replace('|', '&#124;')}` | {cell(text)} |" for name, text in entries(lines)]
+    rows = [f"| `{name.replace('|', '&#124;')}` | {escaped(text)} |" for name, text in entries(lines)]
     head = {"Commands": "command", "Arguments": "argument"}.get(title, "option")
     return [f"| {head} | meaning |", "|---|---|", *rows, ""]
 
@@ -87,4 +89,18 @@ def page(command: Command) -> str:
             usage = [line for line in lines if line.startswith("Usage")]
             out += [re.sub(r"([<>*_])", r"\\\1", line) for line in lines if line not in usage] + [""]
             out += ["```console", *usage, "```", ""] if usage else []
+    return "\n".join(out)
+
+
+def options_page(all_commands: list[Command]) -> str:
+    """Returns an index of all options, each with the commands that have it."""
+    found: dict[str, list[str]] = {}
+    for command in all_commands:
+        for title, lines in sections(command.help):
+            for name, text in entries(lines) if is_list(title, lines) else []:
+                for option in re.findall(r"--[\w-]+", name):
+                    found.setdefault(option, []).append(f"* [{command.name}]({command.file}): `{name}` {escaped(text)}")
+    out = ["---", "search: {boost: 5}", "---", "# All options", "", "Each option of the programs, with the commands that have it.", ""]
+    for option in sorted(found):
+        out += [f"## {option}", "", *found[option], ""]
     return "\n".join(out)

@@ -16,6 +16,7 @@ import sys
 from pathlib import Path
 
 import command_pages
+import diagrams
 import python_pages
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -81,7 +82,7 @@ class Site:
             fence = line.strip().startswith("```")
             lines.append(line if inside or fence else LINK.sub(of, line))
             inside ^= fence
-        return "\n".join(lines) + "\n"
+        return diagrams.drawn("\n".join(lines) + "\n")
 
     def write_source(self, path: Path) -> None:
         name = str(path.relative_to(ROOT))
@@ -121,7 +122,8 @@ def write_commands(site: Site, programs: Path) -> list[tuple[str, str]]:
     found = [command for name in ("rddl", "rddlc") for command in command_pages.commands(programs, name)]
     for command in found:
         site.write(f"commands/{command.file}", command_pages.page(command))
-    return [(command.name, f"commands/{command.file}") for command in found]
+    site.write("commands/options.md", command_pages.options_page(found))
+    return [("All options", "commands/options.md"), *((command.name, f"commands/{command.file}") for command in found)]
 
 
 def write_python(site: Site) -> list[tuple[str, str]]:
@@ -156,7 +158,8 @@ def make(folder: Path, programs: Path) -> Site:
         assert to
         site.write(to, site.linked(page, to))
     shutil.copytree(DOCS / "images", folder / "pages/images")
-    shutil.copy(Path(__file__).parent / "site.css", folder / "pages")
+    for name in "site.css", "search.js":
+        shutil.copy(Path(__file__).parent / name, folder / "pages")
     write_diagnostics(site)
     for path in sorted(site.sources):
         site.write_source(path)

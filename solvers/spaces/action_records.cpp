@@ -149,11 +149,14 @@ ActionRecords::ActionRecords(const rddl_simulator& simulator)
         entries_.push_back(
             {static_cast<std::size_t>(fluent.offset + column.grounding * size), fluent.scalar});
     }
+    defaults_.resize(entries_.size());
+    read(blank_.data(), defaults_.data());
 }
 
 void ActionRecords::write(const float* values, std::byte* record) const {
     std::copy(blank_.begin(), blank_.end(), record);
     for (std::size_t c = 0; c < entries_.size(); ++c) {
+        if (values[c] == defaults_[c]) continue;
         const Entry& entry = entries_[c];
         if (entry.scalar == RDDL_BOOL) {
             record[entry.offset] = static_cast<std::byte>(values[c] > 0.5f);

@@ -110,7 +110,8 @@ void write_action(const ActionSpace& space, const float* numbers, const std::int
 void read_action(const ActionSpace& space, const float* values, float* numbers,
                  std::int32_t* indices);
 
-// Action rows as records and back. Constant for a problem.
+// Action rows as records and back. Constant for a problem. A value that is the default in the row's
+// precision becomes the default itself: 0.1f is no change of 0.1.
 class ActionRecords {
   public:
     explicit ActionRecords(const rddl_simulator& simulator);
@@ -124,7 +125,8 @@ class ActionRecords {
         rddl_scalar scalar;
     };
     std::vector<Entry> entries_;
-    std::vector<std::byte> blank_;
+    std::vector<std::byte> blank_;  // the default action
+    std::vector<float> defaults_;   // as a row
     std::size_t record_size_;
 };
 

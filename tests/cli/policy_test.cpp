@@ -50,6 +50,33 @@ TEST_F(PolicyProgram, RunsFromAFile) {
     EXPECT_NE(without_speed(run_json(run_it + " --seed 4" + interpreted)), summary);
 }
 
+TEST_F(PolicyProgram, EvaluatesFilesSideBySide) {
+    const std::string settings = " --episodes 40 --json" + std::string(interpreted);
+    const json ran = run_json(on_tanks("run", "--policy policy.rddl" + settings));
+    const json evaluated = run_json(on_tanks("evaluate", "--policy policy.rddl" + settings));
+    EXPECT_EQ(evaluated["policies"][0]["return"]["mean"], ran["return"]["mean"]);
+    EXPECT_EQ(evaluated["policies"][0]["policy"], "policy.rddl");
+
+    write_file(folder_ / "lazy.rddl",
+               "policy lazy { cpfs { pump(?t) = false; power = @low; "
+               "extra = 0.0; }; }");
+    const json compared =
+        run_json(on_tanks("compare", "--policies noop,lazy.rddl,policy.rddl" + settings));
+    const json& policies = compared["policies"];
+    EXPECT_EQ(policies[1]["return"], policies[0]["return"]) << "it does nothing";
+    EXPECT_EQ(policies[2]["return"], evaluated["policies"][0]["return"]);
+
+    write_file(folder_ / "greedy.rddl", "policy greedy { cpfs { pump(?t) = true; power = @high; "
+                                        "extra = 0.0; }; }");
+    expect_part(run(on_tanks("compare", "--policies noop,greedy.rddl" + settings)).err,
+                "faults ended 40 of 40 episodes of 'greedy.rddl'");
+
+    write_file(folder_ / "wrong.rddl", "policy wrong { cpfs { pumps(?t) = true; }; }");
+    const Outcome refused = run(on_tanks("compare", "--policies noop,wrong.rddl" + settings));
+    EXPECT_EQ(refused.status, 1);
+    EXPECT_NE(refused.err.find("wrong.rddl:1:"), std::string::npos) << refused.err;
+}
+
 // The part of a trace about the steps.
 std::string steps_of(const std::string& trace) {
     return trace.substr(trace.find('\n'));

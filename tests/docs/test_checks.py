@@ -7,6 +7,7 @@ import unittest
 from pathlib import Path
 
 import check_english
+import check_lines
 import check_text
 import run_pages
 from comparison import agree
@@ -116,6 +117,29 @@ class Text(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             page = page_of("# A title: with `code` & more\n\n## [Link](x.md)\n", folder)
             self.assertEqual(check_text.anchors(page), {"a-title-with-code--more", "link"})
+
+
+class Lines(unittest.TestCase):
+    def test_paragraphs_and_items_break(self):
+        words = "word " * 30
+        for text, rest in (f"{words}\n", ""), (f"* {words}\n", "  "), (f"  12. {words}\n  {words}\n", "      "):
+            lines = check_lines.broken(text).splitlines()
+            self.assertLessEqual(max(map(len, lines)), 100)
+            self.assertTrue(all(line.startswith(rest + "word") for line in lines[1:]), lines)
+            self.assertEqual(check_lines.broken("\n".join(lines) + "\n").splitlines(), lines)
+
+    def test_other_things_stay(self):
+        long = "x " * 60
+        for text in (f"| {long} |\n", f"# {long}\n", f"```\n{long}\n```\n", f"<!-- {long} -->\n", f"[a]: {long}\n", "short\nlines\n",
+                     f"a break  \n{'x' * 120}\n"):
+            self.assertEqual(check_lines.broken(text), text)
+
+    def test_code_and_beginnings_are_kept(self):
+        code = "`a command  with --options`"
+        self.assertIn(code, check_lines.broken(f"{'x' * 90} {code} {'y' * 90}\n"))
+        for word in "1.", "#3", "-", "*", ">", "+":  # would begin an item, a heading or a quotation
+            lines = check_lines.broken(f"{'x' * 60} {'y' * 38} {word} {'z' * 50}\n").splitlines()
+            self.assertFalse(any(line.startswith(word) for line in lines), lines)
 
 
 class English(unittest.TestCase):

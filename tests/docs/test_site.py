@@ -12,6 +12,7 @@ from pages import DIAGNOSTICS, ROOT
 
 sys.path.insert(0, str(ROOT / "scripts/site"))
 import command_pages  # noqa: E402
+import diagrams  # noqa: E402
 import make_pages  # noqa: E402
 import python_pages  # noqa: E402
 
@@ -54,6 +55,12 @@ class Site(unittest.TestCase):
             for option in programs.options(program, command) - {"--version"}:
                 self.assertIn(option, page, f"{program} {command}")
 
+    def test_every_option_has_a_heading_in_their_index(self):
+        index = (self.pages / "commands/options.md").read_text()
+        self.assertIn("\n## --clip\n\n* [rddl train ppo](rddl-train-ppo.md): `--clip C` ", index)
+        for option in check_text.Programs(PROGRAMS).options("rddl", "run") - {"--version"}:
+            self.assertIn(f"\n## {option}\n", index)
+
     def test_every_diagnostic_is_listed(self):
         listed = (self.pages / "diagnostics/index.md").read_text()
         self.assertEqual([page.stem for page in DIAGNOSTICS.glob("*.md") if f"[{page.stem}]" not in listed], [])
@@ -74,6 +81,24 @@ class Pieces(unittest.TestCase):
         page = command_pages.page(command_pages.Command("rddl do", text))
         self.assertIn("| `--a N` | First words |\n| `--long-name VALUE,...` | Second |", page)
         self.assertIn("## Examples\n\n```console\nrddl do --a 3\n```", page)
+
+    def test_flowcharts_become_pictures(self):
+        text = "flowchart TD\n    a --> b\n    a --> c\n    b --> c\n"
+        picture = diagrams.drawn(f"Before\n\n```mermaid\n{text}```\n\nafter")
+        self.assertEqual(re.findall(r"<text[^>]*>(\w)</text>", picture), ["a", "b", "c"])
+        self.assertEqual(picture.count("marker-end"), 3)
+        self.assertNotIn("mermaid", picture)
+        rows = diagrams.graph_of(diagrams.edges_of(text))
+        diagrams.arrange(rows)
+        self.assertEqual([[node.label for node in row] for row in rows[:1]], [["a"]])
+        self.assertEqual(sorted(node.label for node in rows[1]), ["", "b"])  # the edge from a to c passes beside b
+        left, right = rows[1]
+        self.assertGreaterEqual(right.x - right.width / 2, left.x + left.width / 2)
+
+    def test_other_charts_are_refused(self):
+        for text in "flowchart LR\n    a --> b\n", "flowchart TD\n    a -->|x| b\n", "flowchart TD\n    a --> b\n    b --> a\n":
+            with self.assertRaises(ValueError):
+                diagrams.svg(text)
 
     def test_docstrings_list_their_options(self):
         self.assertEqual(python_pages.prose("A text.\n\nseed: the\n    seed"), ["A text.", "", "* `seed`: the", "    seed", ""])

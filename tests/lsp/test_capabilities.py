@@ -141,6 +141,17 @@ class Completion(Test):
         self.assertEqual(values(INSTANCE.replace("= grid", "= "), "non-fluents = "), ["grid"])
         self.assertIn("horizon", values(INSTANCE.replace("horizon = 10;", "ho"), "ho\n"[:2]))
 
+    def test_first_instance_of_a_domain(self):
+        """Before its first 'domain =' is whole, a file belongs to no domain."""
+        client = self.opened()
+        self.assertEqual(self.labels(client, "instance.rddl", "non-fluents n { domain = ", "domain = "), ["fire"])
+        sections = self.labels(client, "instance.rddl", "non-fluents n { domain = fire; ", "fire; ")
+        self.assertEqual(sections, ["domain", "objects", "non-fluents"])
+        own = next(each for each in client.ask("completion", "instance.rddl", "fire; ", 6)["items"] if each["label"] == "non-fluents")
+        self.assertTrue(own["textEdit"]["newText"].startswith("non-fluents {"))
+        sections = self.labels(client, "instance.rddl", "instance i { domain = fire; ", "fire; ")
+        self.assertEqual(sections[:3], ["domain", "non-fluents", "init-state"])
+
     def test_text_that_is_broken_in_the_middle(self):
         client = self.opened()
         broken = DOMAIN.replace("burning(?p) | exists_", "bur | ((exists_").replace("douse(place) :", "douse(place :")

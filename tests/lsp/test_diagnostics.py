@@ -74,6 +74,36 @@ class Diagnostics(Test):
         self.assertEqual(by_code["E0203"]["severity"], 1)
         self.assertEqual(client.checked("instance.rddl"), [])
 
+    def test_instance_of_a_domain_that_was_renamed(self):
+        client = self.opened(domain=DOMAIN.replace("domain fire", "domain forest"))
+        (note,) = client.checked("instance.rddl")
+        self.assertIn("no file here declares the domain 'fire'", note["message"])
+        (fix,) = [each for each in client.actions("instance.rddl", note["range"]) if each["kind"] == "quickfix"]
+        self.assertEqual(fix["title"], "Replace 'fire' by 'forest'")
+        client.apply(fix["edit"])
+        self.assertEqual(client.texts["instance.rddl"], INSTANCE.replace("domain = fire", "domain = forest"))
+        self.assertEqual(client.checked("instance.rddl"), [])
+
+    def test_text_that_is_written_from_the_top_down(self):
+        """Mistakes above the cursor are found before the brackets are closed; what is not there yet is not missed."""
+        client = self.client()
+        begun = DOMAIN[:DOMAIN.index("cpfs")]
+        client.open("domain.rddl", begun)
+        self.assertEqual([each["code"] for each in client.checked("domain.rddl")], ["E0103"])
+        client.change("domain.rddl", begun.replace("burning(place)", "burning(plce)") + "cpfs {\n")
+        found = {each["code"]: each for each in client.checked("domain.rddl")}
+        self.assertEqual(sorted(found), ["E0103", "E0213"])
+        (fix,) = [each for each in client.actions("domain.rddl", found["E0213"]["range"]) if each["kind"] == "quickfix"]
+        client.apply(fix["edit"])
+        self.assertEqual([each["code"] for each in client.checked("domain.rddl")], ["E0103"])
+        # The instance of a domain that is whole.
+        client.change("domain.rddl", DOMAIN)
+        client.open("instance.rddl", INSTANCE[:INSTANCE.index("horizon")])
+        self.assertEqual([each["code"] for each in client.checked("instance.rddl")], ["E0103"])
+        client.change("instance.rddl", INSTANCE[:INSTANCE.index("horizon")].replace("burning(north)", "burnt(north)"))
+        self.assertEqual(sorted(each["code"] for each in client.checked("instance.rddl")), ["E0103", "E0501"])
+        self.assertEqual(client.checked("domain.rddl"), [])
+
     def test_a_problem_in_one_file(self):
         client = self.client()
         client.open("both.rddl", DOMAIN + INSTANCE)

@@ -138,6 +138,31 @@ TEST(Gradient, WithoutAnAscentTheFormerPlanGoesOn) {
     for (const auto& [name, action] : decide_twice(50, 0, 1)) EXPECT_EQ(name, "noop");
 }
 
+// A stop while plans ascend: a plan of several steps is still compared with no-op.
+TEST(Gradient, ComparesAPlanOfManyStepsAfterAStop) {
+    for (const std::int64_t replan : {1, 10}) {
+        GradientOptions options;
+        options.budget.iterations = 1'000'000;
+        options.horizon = 10;
+        options.replan = replan;
+        Gradient planner(
+            {target(), 1, 10, default_memory_limit, {}, derivatives_in(PROBLEMS "/target")},
+            options);
+        rddl_batch_options batch_options{};
+        batch_options.horizon = 10;
+        const solvers::BatchHandle batch = solvers::create_batch(target(), batch_options);
+        int asked = 0;
+        const solvers::Stops stops = [&] {
+            return ++asked > 100;
+        };
+        std::vector<std::byte> action(static_cast<std::size_t>(target().problem->action_size));
+        Explanation explanation;
+        planner.decide({batch.get(), 0, 0, 0, 10, 10, &stops}, action.data(), &explanation);
+        EXPECT_GT(explanation.iterations, 0);
+        EXPECT_EQ(explanation.depth, replan == 1 ? 4 : 10);
+    }
+}
+
 TEST(Gradient, KeepsToTheMemoryLimit) {
     const auto trials_with = [](std::int64_t limit) {
         const Played plan = run_gradient(network(), EXAMPLES "/network",

@@ -16,6 +16,9 @@ bool processor_has(std::string_view level) {
                     __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl");
     if (level == "x86-64-v3") return v3;
     if (level == "x86-64-v4") return v4;
+    if (level == "x86-64-v4-vbmi")  // as rddlc compiles where it may (rddl/lanes/processor.hpp)
+        return v4 && __builtin_cpu_supports("avx512vbmi") &&
+               __builtin_cpu_supports("avx512vpopcntdq");
 #endif
     return level == "portable";
 }

@@ -173,6 +173,7 @@ class Shell(unittest.TestCase):
         for program in PROGRAMS:
             page = self.write(f"{program}.1", output(BIN / program, "--man-page"))
             self.assertTrue(page.read_text().startswith(f".TH {program.upper()} 1 "))
+            self.assertEqual(program == "rddl", "\\fBExploration:\\fR" in page.read_text())
             for formatter in formatters:
                 if shutil.which(formatter[0]):
                     done = subprocess.run([*formatter, page], stdout=subprocess.PIPE, stderr=subprocess.PIPE)

@@ -96,7 +96,8 @@ class Window:
 
     def go(self, address: str) -> None:
         self.call("Page.navigate", url=address)
-        self.wait("document.body?.dataset.ready === 'yes' || document.body?.innerText.length > 0 && !document.getElementById('gone')")
+        self.wait("document.body?.dataset.ready === 'yes' || "
+                  "document.readyState === 'complete' && location.href !== 'about:blank' && !document.getElementById('gone')")
 
     def reload(self) -> None:
         self.evaluate("document.body.dataset.ready = 'no'")
@@ -156,10 +157,12 @@ class Window:
         self.call("Input.dispatchKeyEvent", type="keyUp", **values)
 
     def complaints(self, origin: str | None = None) -> list:
-        """Exceptions, errors of the log, and what was asked of others than the origin, in all tabs."""
+        """Exceptions, errors of the log, and what was asked of others than the origin."""
         self.evaluate("0")
         found = []
         for event in self.browser.events:
+            if event.get("sessionId") != self.session:  # windows that were closed may still complain
+                continue
             method, parameters = event.get("method"), event.get("params", {})
             if method == "Runtime.exceptionThrown":
                 found.append(parameters["exceptionDetails"])
@@ -198,7 +201,9 @@ def require_browser() -> None:
 @functools.cache
 def shared_browser() -> Browser:
     """One start for all tests of a process. A name of an attacker leads to this machine."""
-    browser = Browser("--host-resolver-rules=MAP evil.example 127.0.0.1")
+    always_in_front = ("--disable-background-timer-throttling", "--disable-backgrounding-occluded-windows",
+                       "--disable-renderer-backgrounding")  # windows of a test stand behind each other
+    browser = Browser("--host-resolver-rules=MAP evil.example 127.0.0.1", *always_in_front)
     atexit.register(browser.close)
     return browser
 

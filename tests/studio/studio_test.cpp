@@ -234,16 +234,20 @@ TEST_F(StudioTest, ComparesWithPairedLuck) {
     EXPECT_EQ(finished_job("compare")["state"], "failed");
 }
 
-TEST_F(StudioTest, TwoPolicyBlocksAreNotComparedAsOne) {
+TEST_F(StudioTest, ComparesTwoPolicyBlocks) {
     const TestFolder folder;
     const std::string file = folder.write("alarming.rddl", alarming);
     json request = {{"domain", tanks_domain}, {"instance", tanks_instance},
                     {"first", file},          {"second", "rddl"},
                     {"episodes", 20},         {"seed", 3}};
-    ask("compare", request, 422);
+    ask("compare", request);
+    json status = finished_job("compare");
+    ASSERT_EQ(status["state"], "done") << status;
+    // The block of the texts raises it in 17 of 20 steps only.
+    EXPECT_NEAR(status["result"]["difference"]["mean"].get<double>(), 3, 1e-9);
     request["second"] = "noop";
     ask("compare", request);
-    const json status = finished_job("compare");
+    status = finished_job("compare");
     ASSERT_EQ(status["state"], "done") << status;
     EXPECT_NEAR(status["result"]["difference"]["mean"].get<double>(), 20, 1e-9);
     EXPECT_EQ(status["result"]["policies"][0]["policy"], file);

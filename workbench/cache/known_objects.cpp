@@ -87,8 +87,9 @@ std::optional<std::string> key_of_files(const std::vector<fs::path>& files,
         const auto compiler = find_program(command.front());
         if (!compiler) return std::nullopt;
         std::string text =
-            fmt::format("{}\n{}\n{}\n", options, static_cast<int>(rddl::allowed_instruction_set()),
-                        fmt::join(command, " "));
+            fmt::format("{}\n{} {}\n{}\n", options,
+                        static_cast<int>(rddl::allowed_instruction_set()),
+                        rddl::processor_permutes_bytes(), fmt::join(command, " "));
         text += identity_of(*compiler) + identity_of(this_compiler()) + runtime_identity();
         for (const fs::path& file : files) text += file.string() + '\0' + read_file(file) + '\0';
         return sha256(text);

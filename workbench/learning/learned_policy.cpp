@@ -197,6 +197,11 @@ solvers::Policy policy_named(const rddl_simulator& simulator, const std::string&
                                   "the folder of a run nor a planner (plan:NAME)",
                                   name),
                       {}, usage_error);
+    if (is_block_file(name))
+        throw Failure(fmt::format("'{}' holds a policy block, with which the problem has to be "
+                                  "loaded",
+                                  name),
+                      "load it by --policy-block, and name the policy 'rddl'", usage_error);
     return learned_policy(simulator, name, random, seed, memory_limit);
 }
 

@@ -16,6 +16,12 @@ std::filesystem::path policy_file(const std::filesystem::path& path);
 // Its bytes. Throws a Failure.
 std::string policy_text(const std::filesystem::path& path);
 
+// "FILE.rddl" is a file with a policy block. A problem is loaded with one block, which plays as the
+// policy "rddl".
+inline bool is_block_file(const std::string& policy) {
+    return policy.ends_with(".rddl");
+}
+
 // A policy file of a solver, the folder of a run, whose best policy it is, or the
 // episodes of a trace (.jsonl).
 bool is_learned_policy(const std::filesystem::path& path);

@@ -1,6 +1,8 @@
 #include "lsp/checks.hpp"
 
+#include "check/codes.hpp"
 #include "driver/driver.hpp"
+#include "parse/codes.hpp"
 
 #include <fmt/format.h>
 
@@ -61,8 +63,10 @@ std::vector<CheckRequest::Problem> problems_of(const FilePtr& file, const Family
     const Outline& outline = file->outline;
     const bool is_policy = outline.has(Meaning::Policy) && !outline.has(Meaning::Domain) &&
                            !outline.has(Meaning::Instance);
+    const bool has_choice = !family.domain && family.domains_around.size() == 1;
     if (outline.has(Meaning::Instance) || outline.blocks.empty())
-        return {{inputs_with(family, file), nullptr, file}};
+        return {{inputs_with(family, file), nullptr, file,
+                 has_choice ? family.domains_around.front() : nullptr}};
     std::vector<CheckRequest::Problem> problems;
     for (const FilePtr& instance : instances_for(family, *file))
         problems.push_back({inputs_with(family, instance), is_policy ? file : nullptr, file});
@@ -94,7 +98,8 @@ class Checker {
         const Compilation compilation = compile(options);
         for (const Diagnostic& diagnostic : compilation.diagnostics.all())
             take(diagnostic, compilation.diagnostics.is_error(diagnostic), *problem.asked);
-        if (!knows_domain) tell_of_missing_domain(*problem.asked);
+        if (is_unfinished(compilation)) check_as_if_finished(options, *problem.asked);
+        if (!knows_domain) tell_of_missing_domain(*problem.asked, problem.other_domain);
     }
 
     Checks result() && { return std::move(checks_); }
@@ -103,6 +108,62 @@ class Checker {
     void add(const FilePtr& file) {
         files_.push_back(file);
         checks_[file->uri].version = file->version;
+    }
+
+    // Whether a file ends too soon, and nothing else is wrong: somebody writes it from the top
+    // down.
+    bool is_unfinished(const Compilation& compilation) const {
+        const auto lacks_end = [&](const Diagnostic& diagnostic) {
+            return diagnostic.code == unbalanced_bracket && diagnostic.span &&
+                   end_of(*files_[diagnostic.span->file]) <= diagnostic.span->begin;
+        };
+        return compilation.diagnostics.has_errors() &&
+               std::ranges::all_of(compilation.diagnostics.all(), lacks_end);
+    }
+
+    // Behind the last word or mark that is not a comment.
+    static std::size_t end_of(const File& file) {
+        std::size_t end = 0;
+        for (const format::Token& token : file.outline.tokens)
+            if (!token.text.empty())
+                end = static_cast<std::size_t>(token.text.data() - file.text.string().data()) +
+                      token.text.size();
+        return end;
+    }
+
+    // The mistakes in what is there already, as if its brackets were closed. What is not there yet
+    // may still come.
+    void check_as_if_finished(CompileOptions options, const File& asked) {
+        for (const FilePtr& file : files_) options.texts[file->path] += missing_end(*file);
+        const Compilation compilation = compile(options);
+        for (const Diagnostic& diagnostic : compilation.diagnostics.all()) {
+            const bool is_there =
+                diagnostic.span &&
+                diagnostic.span->end <= files_[diagnostic.span->file]->text.string().size();
+            if (is_there && !may_still_come(diagnostic.code))
+                take(diagnostic, compilation.diagnostics.is_error(diagnostic), asked);
+        }
+    }
+
+    // The brackets that close sections and the block.
+    static std::string missing_end(const File& file) {
+        std::size_t open = 0;
+        for (const format::Token& token : file.outline.tokens) {
+            if (token.text == "{") ++open;
+            if (token.text == "}" && open > 0) --open;
+        }
+        if (open == 0) return "";
+        std::string text = "\n";
+        while (--open > 0) text += "};";
+        return text + "}";
+    }
+
+    static bool may_still_come(Code code) {
+        using namespace checking;
+        constexpr Code codes[] = {missing_block,     missing_section,   type_without_objects,
+                                  missing_cpf,       missing_values,    unused_fluent,
+                                  idle_action_limit, unbalanced_bracket};
+        return std::ranges::find(codes, code) != std::end(codes);
     }
 
     Json range(Span span) const { return files_[span.file]->text.range({span.begin, span.end}); }
@@ -172,7 +233,7 @@ class Checker {
         return line.size() <= longest ? line : line.substr(0, longest) + "...";
     }
 
-    void tell_of_missing_domain(const File& file) {
+    void tell_of_missing_domain(const File& file, const FilePtr& other) {
         const auto& blocks = file.outline.blocks;
         const auto named =
             std::ranges::find_if(blocks, [](const Block& block) { return !block.domain.empty(); });
@@ -186,7 +247,26 @@ class Checker {
         json["source"] = "rddl";
         json["message"] = fmt::format(
             "no file here declares the domain '{}', so the syntax alone is checked", named->domain);
+        if (!other) return publish(file, std::move(json), nullptr);
+        const std::string_view name = domain_of(*other);
+        json["message"] =
+            fmt::format("{}\nhint: did you mean '{}'?", json["message"].get<std::string>(), name);
+        FileChecks& checks = checks_[file.uri];
+        const std::size_t count = checks.diagnostics.size();
         publish(file, std::move(json), nullptr);
+        if (checks.diagnostics.size() == count) return;
+        QuickFix fix{fmt::format("Replace '{}' by '{}'", named->domain, name), Json::object(),
+                     count};
+        for (const Occurrence& each : occurrences)
+            if (each.meaning == Meaning::Domain && each.name.text == named->domain)
+                fix.changes[file.uri].push_back(
+                    {{"range", file.text.range(each.name.place)}, {"newText", name}});
+        checks.fixes.push_back(std::move(fix));
+    }
+
+    static std::string_view domain_of(const File& file) {
+        const auto& blocks = file.outline.blocks;
+        return std::ranges::find(blocks, Meaning::Domain, &Block::kind)->name.text;
     }
 
     Standard standard_;

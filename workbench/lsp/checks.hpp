@@ -30,9 +30,10 @@ using Checks = std::map<std::string, FileChecks>;
 // Checks the problems of all open files. Pure, so that it may run beside the server.
 struct CheckRequest {
     struct Problem {
-        std::vector<FilePtr> inputs;  // domain first
-        FilePtr policy;               // may be null
-        FilePtr asked;                // where diagnostics without a place are shown
+        std::vector<FilePtr> inputs;     // domain first
+        FilePtr policy;                  // may be null
+        FilePtr asked;                   // where diagnostics without a place are shown
+        FilePtr other_domain = nullptr;  // the only domain around, if no file has the named one
     };
     std::vector<Problem> problems;
     Standard standard = Standard::PyRddlGym;

@@ -44,14 +44,19 @@ constexpr Form domain_sections[] = {
     {"state-invariants", "state-invariants {\n    $0\n};"},
     {"requirements", "requirements = { $0 };"},
 };
+constexpr Form non_fluents_sections[] = {
+    {"domain", "domain = $0;"},
+    {"objects", "objects {\n    $0\n};"},
+    {"non-fluents", "non-fluents {\n    $0\n};"},
+};
 constexpr Form instance_sections[] = {
     {"domain", "domain = $0;"},
     {"non-fluents", "non-fluents = $0;"},
-    {"objects", "objects {\n    $0\n};"},
     {"init-state", "init-state {\n    $0\n};"},
     {"max-nondef-actions", "max-nondef-actions = ${0:pos-inf};"},
     {"horizon", "horizon = ${0:40};"},
     {"discount", "discount = ${0:1.0};"},
+    {"objects", "objects {\n    $0\n};"},
 };
 constexpr Form expressions[] = {
     {"if", "if ($1) then $2 else $0"},
@@ -89,6 +94,8 @@ class Completion {
                 return add_forms(blocks, a_block);
             case CompletionPlace::Kind::DomainSection:
                 return add_forms(domain_sections, a_keyword);
+            case CompletionPlace::Kind::NonFluentsSection:
+                return add_forms(non_fluents_sections, a_keyword);
             case CompletionPlace::Kind::InstanceSection:
                 return add_forms(instance_sections, a_keyword);
             case CompletionPlace::Kind::BlockName:
@@ -168,7 +175,7 @@ class Completion {
 
     void add_block_names() {
         const bool wants_domain = place_.word == "domain";
-        for (const FilePtr& file : lookup_.files())
+        for (const FilePtr& file : wants_domain ? lookup_.domains_around() : lookup_.files())
             for (const Block& block : file->outline.blocks)
                 if (block.kind == (wants_domain ? Meaning::Domain : Meaning::NonFluents))
                     add(block.name.text, a_block, "", file->path.filename().string());

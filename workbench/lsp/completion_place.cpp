@@ -103,13 +103,17 @@ class PlaceFinder {
             if (is_name_of_block) return;
         }
         if (!section || is_over(section->whole)) {
-            const bool is_domain = block->kind == Meaning::Domain || place_.in_policy;
-            place_.kind = is_domain ? Kind::DomainSection : Kind::InstanceSection;
+            place_.kind = section_in(*block);
             return;
         }
         while (first_ < before_.size() && begin_of(*before_[first_]) < section->whole.begin)
             ++first_;
         find_in(*section, *block);
+    }
+
+    static Kind section_in(const Block& block) {
+        if (block.kind == Meaning::NonFluents) return Kind::NonFluentsSection;
+        return block.kind == Meaning::Instance ? Kind::InstanceSection : Kind::DomainSection;
     }
 
     void find_in(const Section& section, const Block& block) {

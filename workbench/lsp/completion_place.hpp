@@ -11,10 +11,11 @@ struct CompletionPlace {
     enum class Kind {
         Nothing,  // a new name, a number, a comment
         Block,
-        DomainSection,    // also of a policy
-        InstanceSection,  // also of a non-fluents block
-        BlockName,        // behind 'domain =' or 'non-fluents ='; `word` is the keyword
-        TypeForm,         // behind 't :'
+        DomainSection,  // also of a policy
+        NonFluentsSection,
+        InstanceSection,
+        BlockName,  // behind 'domain =' or 'non-fluents ='; `word` is the keyword
+        TypeForm,   // behind 't :'
         Type,
         FluentKind,
         Range,

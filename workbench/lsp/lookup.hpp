@@ -41,6 +41,7 @@ class Lookup {
 
     const FilePtr& file() const { return file_; }
     const std::vector<FilePtr>& files() const { return files_; }
+    const std::vector<FilePtr>& domains_around() const { return family_.domains_around; }
 
     std::optional<Symbol> symbol_at(std::uint32_t offset) const;
     // The declaration of the symbol, if `declarations_only`, or all that mention it.

@@ -21,7 +21,9 @@ inline constexpr int parse_error = -32700, invalid_request = -32600, method_not_
 
 class Session {
   public:
-    explicit Session(Standard standard) : standard_(standard) {}
+    // `is_one_problem`: as for a Workspace.
+    explicit Session(Standard standard, bool is_one_problem = false)
+        : standard_(standard), workspace_(is_one_problem) {}
 
     // Answers and notifications, in their order.
     std::vector<Json> handle(const Json& message);

@@ -107,12 +107,16 @@ std::vector<FilePtr> Workspace::open_files() const {
 Family Workspace::family_of(const FilePtr& file) const {
     const std::set<std::string_view> domains = domains_of(*file);
     std::vector<FilePtr> files;
-    for (const FilePtr& each : files_around(*file))
-        if (each->uri == file->uri || belongs_to(*each, domains)) files.push_back(each);
     Family family;
+    for (const FilePtr& each : files_around(*file)) {
+        const bool belongs = is_one_problem_ || belongs_to(*each, domains);
+        if (each->uri == file->uri || belongs) files.push_back(each);
+        if (each->outline.has(Meaning::Domain)) family.domains_around.push_back(each);
+    }
     for (const FilePtr& each : files) {
         const bool declares = std::ranges::any_of(each->outline.blocks, [&](const Block& block) {
-            return block.kind == Meaning::Domain && domains.contains(block.name.text);
+            const bool is_named = is_one_problem_ || domains.contains(block.name.text);
+            return block.kind == Meaning::Domain && is_named;
         });
         const bool is_better =
             declares && (!family.domain ||

@@ -32,12 +32,17 @@ using FilePtr = std::shared_ptr<const File>;
 struct Family {
     FilePtr domain;               // absent if it was not found
     std::vector<FilePtr> others;  // non-fluents, instances, policies; open ones first
+    // All that declare a domain, of this family or not: 'domain = ' may come to name each of them.
+    std::vector<FilePtr> domains_around;
 
     std::vector<FilePtr> all() const;
 };
 
 class Workspace {
   public:
+    // `is_one_problem`: the open files belong together, whatever names are in them.
+    explicit Workspace(bool is_one_problem = false) : is_one_problem_(is_one_problem) {}
+
     // The file that the editor has opened, or changed.
     void open(const std::string& uri, std::int64_t version, std::string text);
     // One of textDocument/didChange's changes; they may be of ranges or of the whole.
@@ -58,6 +63,7 @@ class Workspace {
         std::filesystem::file_time_type time;
         FilePtr file;  // null if it could not be read
     };
+    bool is_one_problem_;
     std::map<std::string, FilePtr> open_;
     mutable std::map<std::filesystem::path, OnDisk> on_disk_;
 };

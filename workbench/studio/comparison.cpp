@@ -79,12 +79,13 @@ std::vector<double> differences(const solvers::Rollouts& a, const solvers::Rollo
 
 }  // namespace
 
-Json compare(Job& job, const LoadedProblem& problem, const ComparisonOptions& options) {
-    const rddl_problem& described = *problem.simulator->problem;
+Json compare(Job& job, const std::array<LoadedProblem, 2>& problems,
+             const ComparisonOptions& options) {
+    const rddl_problem& described = *problems[0].simulator->problem;
     if (solvers::is_endless(described, options.horizon > 0 ? options.horizon : described.horizon))
         throw Failure(solvers::endless, "give the episodes a number of steps");
-    const solvers::Rollouts first = episodes_of(job, problem, options.policies[0], options);
-    const solvers::Rollouts second = episodes_of(job, problem, options.policies[1], options);
+    const solvers::Rollouts first = episodes_of(job, problems[0], options.policies[0], options);
+    const solvers::Rollouts second = episodes_of(job, problems[1], options.policies[1], options);
     const std::vector<double> paired = differences(first, second);
     return {{"seed", options.seed},
             {"policies", Json::array({policy_json(options.policies[0], first),

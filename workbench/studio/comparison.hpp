@@ -19,6 +19,8 @@ struct ComparisonOptions {
 
 // The returns of both policies, and the mean difference (second minus first) of the episodes with
 // its 95 % confidence interval. Reports which policy is at work and which part is done.
-Json compare(Job& job, const workbench::LoadedProblem& problem, const ComparisonOptions& options);
+// `problems` differ in their policy blocks alone: each is loaded with that of its policy.
+Json compare(Job& job, const std::array<workbench::LoadedProblem, 2>& problems,
+             const ComparisonOptions& options);
 
 }  // namespace rddlc::studio

@@ -1,15 +1,14 @@
 // The policies that users name on the page.
 #pragma once
 
+#include "learning/learned_policy.hpp"
+
 #include <optional>
 #include <string>
 
 namespace rddlc::studio {
 
-// "FILE.rddl" is a file with a policy block, as for `rddl run --policy`.
-inline bool is_block_file(const std::string& policy) {
-    return policy.ends_with(".rddl");
-}
+using workbench::is_block_file;
 
 // The policy block that the problem must be loaded with: a file, or "" for that of the texts.
 // Nothing for a policy that plays no block.

@@ -81,7 +81,7 @@ Json planner_names() {
 
 Tab::Tab(std::shared_ptr<const TabContext> context)
     : context_(std::move(context)),
-      language_(context_->problem.files.standard),
+      language_(context_->problem.files.standard, true),
       saved_{context_->problem.domain, context_->problem.instance} {
     language_.handle({{"jsonrpc", "2.0"}, {"id", 0}, {"method", "initialize"}});
 }
@@ -272,16 +272,17 @@ Reply Tab::compare(const Request& request) {
     options.seed = seed_in(request);
     options.horizon = horizon_in(request);
     const auto first = block_of(options.policies[0]), second = block_of(options.policies[1]);
-    if (first && second && *first != *second)
-        throw Failure("two policy blocks cannot be compared, since a problem is loaded with one",
-                      "compare each of them with another policy");
     const std::string block = first.value_or(second.value_or(""));
-    put_job("compare", Job::start(context_->workers, [context = context_, texts = texts_of(request),
-                                                      options, block](Job& job) {
-                const LoadedProblem problem =
-                    load_texts(context->problem, texts, context->load, Purpose::Episodes, block);
-                return studio::compare(job, problem, options);
-            }));
+    put_job(
+        "compare",
+        Job::start(context_->workers, [context = context_, texts = texts_of(request), options,
+                                       block, other = second.value_or(block)](Job& job) {
+            const auto load = [&](const std::string& own) {
+                return load_texts(context->problem, texts, context->load, Purpose::Episodes, own);
+            };
+            const LoadedProblem problem = load(block);
+            return studio::compare(job, {problem, other == block ? problem : load(other)}, options);
+        }));
     return {};
 }
 

@@ -152,6 +152,15 @@ void hint_at_chance(const Evaluation& one) {
             one.policy, number_text(*learned));
 }
 
+// Says where a return may be high only because episodes ended early.
+void note_faults(const Evaluation& one) {
+    const solvers::Summary& s = one.summary;
+    if (s.faulted > 0)
+        tell(
+            "rddl: note: faults ended {} of {} episodes of '{}', so its return is of fewer steps\n",
+            grouped(s.faulted), grouped(s.episodes), one.policy);
+}
+
 // The optimum of the horizon in which policies are evaluated.
 std::optional<KnownOptimum> optimum_of(const ProblemFiles& files, const rddl_simulator& simulator,
                                        const EvaluationOptions& options) {
@@ -182,6 +191,21 @@ std::optional<KnownOptimum> optimum_of(const ProblemFiles& files, const rddl_sim
     return KnownOptimum{solution.optimum.value};
 }
 
+// A file with a policy block has a problem of its own, which is loaded with it.
+Evaluation evaluate_one(const rddl_simulator& simulator, const ProblemFiles& files,
+                        const std::string& name, const EvaluationOptions& options) {
+    if (!is_block_file(name))
+        return evaluate(simulator, name, options.episodes, options.random, options.json,
+                        options.planning);
+    ProblemFiles own = files;
+    own.policy = name;
+    const LoadedProblem problem = load_problem(own, options.load);
+    Evaluation one = evaluate(*problem.simulator, "rddl", options.episodes, options.random,
+                              options.json, options.planning);
+    one.policy = name;
+    return one;
+}
+
 ExitStatus evaluate_all(const EvaluationOptions& options) {
     if (options.chart.any()) require_writable_chart(options.chart);
     ProblemFiles files = options.problem.files();
@@ -199,14 +223,14 @@ ExitStatus evaluate_all(const EvaluationOptions& options) {
     std::vector<Evaluation> all;
     for (const std::string& name : options.policies) {
         if (is_interrupted()) break;
-        all.push_back(evaluate(simulator, name, chosen.episodes, options.random, options.json,
-                               chosen.planning));
+        all.push_back(evaluate_one(simulator, files, name, chosen));
         explanations.write(name);
     }
     explanations.finish();
     options.json ? print_json(files, all, optimum, options)
                  : print_table(*simulator.problem, all, optimum, options);
     if (options.chart.any() && !all.empty()) draw(*simulator.problem, all, options);
+    for (const Evaluation& one : all) note_faults(one);
     for (const Evaluation& one : all)
         if (!options.random && !is_interrupted()) hint_at_chance(one);
     if (!is_interrupted()) return success;
@@ -258,13 +282,15 @@ Command evaluate_command() {
         "  rddl evaluate MountainCar_ippc2023 1 --policy plan:cem,seconds=0.1 --episodes 10\n\n" +
         planner_help();
     add_problem_arguments(command, options->problem);
-    add_option(command, "--policy", "POLICY",
-               "random, noop, rddl (the policy block), a policy file, the folder of a run, a trace "
-               "(.jsonl), whose episodes are played one after the other, or a planner (plan:NAME)",
-               [options](const std::string& name) {
-                   if (planners::is_planner(name)) planners::require_planner(name);
-                   options->policies = {name};
-               })
+    add_option(
+        command, "--policy", "POLICY",
+        "Policy: random, noop, rddl (the policy block of the problem), a file with a policy block "
+        "(.rddl), a policy file, the folder of a run, a trace (.jsonl), whose episodes are "
+        "played one after the other, or a planner (plan:NAME)",
+        [options](const std::string& name) {
+            if (planners::is_planner(name)) planners::require_planner(name);
+            options->policies = {name};
+        })
         .suggestions = {"random", "noop", "rddl"};
     add_common_options(command, *options);
     command.run = [options] {
@@ -285,11 +311,12 @@ Command compare_command() {
         "  rddl compare MountainCar_ippc2023 1 --policies noop,runs/ppo --png returns.png\n"
         "  rddl compare Elevators_MDP_ippc2011 1 --policies noop,plan:uct --optimum now";
     add_problem_arguments(command, options->problem);
-    add_list_option(
-        command, "--policies", "POLICY,...",
-        "random, noop, rddl (the policy block), policy files, folders of runs, traces (.jsonl) "
-        "as plans, planners (plan:NAME,key=value,...)",
-        [options](const std::string& name) { add_policy(options->policies, name); })
+    add_list_option(command, "--policies", "POLICY,...",
+                    "Policies: random, noop, rddl (the policy block of the problem), files with "
+                    "policy blocks (.rddl), "
+                    "policy files, folders of runs, traces (.jsonl) as plans, planners "
+                    "(plan:NAME,key=value,...)",
+                    [options](const std::string& name) { add_policy(options->policies, name); })
         .suggestions = {"random", "noop", "rddl"};
     add_text_option(
         command, "--optimum", "FILE.optimum",

@@ -168,13 +168,14 @@ Command play_command() {
                  [options](const std::string& address) { read_address(address, *options); })
         .is_required = true;
     add_problem_arguments(command, options->problem, false);
-    add_option(command, "--policy", "POLICY",
-               "random (default), noop, rddl (the policy block), a policy file, the folder of a "
-               "run, a trace (.jsonl) or a planner (plan:NAME; 'rddl help evaluate' lists them)",
-               [options](const std::string& name) {
-                   if (planners::is_planner(name)) planners::require_planner(name);
-                   options->policy = name;
-               })
+    add_option(
+        command, "--policy", "POLICY",
+        "Policy: random (default), noop, rddl (the policy block), a policy file, the folder of a "
+        "run, a trace (.jsonl) or a planner (plan:NAME; 'rddl help evaluate' lists them)",
+        [options](const std::string& name) {
+            if (planners::is_planner(name)) planners::require_planner(name);
+            options->policy = name;
+        })
         .suggestions = {"random", "noop", "rddl"};
     add_option(command, "--policy-block", "FILE",
                "File with the policy block for the policy 'rddl'",

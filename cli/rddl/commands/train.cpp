@@ -2,7 +2,7 @@
 #include "commands/commands.hpp"
 #include "commands/options.hpp"
 #include "formats/number_text.hpp"
-#include "learning/learned_policy.hpp"
+#include "learning/imitation.hpp"
 #include "solvers/cgp/option_table.hpp"
 #include "solvers/cgp/trainee.hpp"
 #include "solvers/ppo/demonstrations.hpp"
@@ -159,32 +159,14 @@ void add_learner_options(Command& command, const solvers::OptionTable<Options>& 
 
 struct TrainPpoOptions : TrainOptions {
     solvers::PpoOptions ppo;
-    std::string imitated;  // a policy's name; "": nothing is imitated
-    std::int64_t imitated_episodes = 20;
+    Imitation imitation;
 };
 
-// Plays the policy that is to be imitated, with a progress bar.
-solvers::Demonstrate demonstrate(const LoadedProblem& problem, const TrainPpoOptions& options) {
-    if (options.imitated.empty()) return {};
-    const rddl_simulator& simulator = *problem.simulator;
-    return [&simulator, &problem, &options](const solvers::PpoModel& model) {
-        const std::uint64_t seed = options.training.seed + 0x696D6974;  // not that of evaluations
-        const solvers::Policy policy =
-            policy_named(simulator, options.imitated, false, seed, options.problem.memory_limit,
-                         {.derivatives = problem.derivatives});
-        solvers::EpisodeOptions episodes;
-        episodes.episodes = options.imitated_episodes;
-        episodes.seed = seed;
-        if (simulator.problem->horizon == 0) episodes.horizon = 1000;
-        return solvers::demonstrations(simulator, model, policy, episodes, is_interrupted);
-    };
-}
-
 ExitStatus train_ppo(TrainPpoOptions options, const solvers::Ranks& ranks) {
-    if (!options.imitated.empty())
-        options.settings = {{"--imitate", options.imitated},
-                            {"--imitate-episodes", std::to_string(options.imitated_episodes)}};
-    if (!options.imitated.empty() && (ranks.count > 1 || options.ppo.recurrent > 0))
+    const Imitation& imitation = options.imitation;
+    if (!imitation.policy.empty())
+        options.settings = solvers::settings_of(imitation_option_table(), imitation);
+    if (!imitation.policy.empty() && (ranks.count > 1 || options.ppo.recurrent > 0))
         throw Failure("--imitate goes neither with --recurrent nor with several ranks", {},
                       usage_error);
     const LoadedProblem problem = load_problem(options.problem.files(), options.load);
@@ -195,8 +177,10 @@ ExitStatus train_ppo(TrainPpoOptions options, const solvers::Ranks& ranks) {
     ppo.stops = stops_of(ranks);
     ppo.memory_limit = options.problem.memory_limit;
     ppo.shortens_rollout = !ppo.names_rollout;
-    return run_training(options, simulator,
-                        solvers::ppo_trainee(simulator, ppo, ranks, demonstrate(problem, options)),
+    const solvers::Demonstrate shown =
+        demonstrate(simulator, imitation, ppo.seed, ppo.memory_limit,
+                    {.derivatives = problem.derivatives}, is_interrupted);
+    return run_training(options, simulator, solvers::ppo_trainee(simulator, ppo, ranks, shown),
                         ranks);
 }
 
@@ -216,15 +200,7 @@ Command ppo_command() {
         "  rddl train ppo RaceCar_ippc2023 2 --imitate plan:cem,seconds=0.1\n"
         "  rddl train ppo MountainCar_ippc2023 1 --out runs/a --resume";
     add_common_options(command, *options);
-    add_option(command, "--imitate", "POLICY",
-               "Begin as this policy acts, such as plan:cem or runs/a: for goals behind costs",
-               [options](const std::string& name) {
-                   if (planners::is_planner(name)) planners::require_planner(name);
-                   options->imitated = name;
-               });
-    add_number_option<std::int64_t>(command, "--imitate-episodes", "N",
-                                    "Episodes of it that are imitated (20)",
-                                    options->imitated_episodes, 1, 1'000'000);
+    add_learner_options(command, imitation_option_table(), options->imitation);
     add_learner_options(command, solvers::ppo_option_table(), options->ppo);
     add_title(command, "--imitate", "Imitation");
     add_title(command, "--preset", "Samples");

@@ -156,7 +156,7 @@ Command train_plan_command() {
         "  rddl train plan HVAC_ippc2023 1 --out plan.jsonl --seconds 30\n"
         "  rddl evaluate HVAC_ippc2023 1 --policy plan.jsonl";
     add_problem_arguments(command, options->problem);
-    add_text_option(command, "--out", "FILE.jsonl", "Where the plan is written", options->out);
+    add_text_option(command, "--out", "FILE.jsonl", "File of the plan", options->out);
     add_number_option(command, "--seconds", "S", "Time of the search (10)", options->seconds, 0.0,
                       1e6);
     add_number_option<std::int64_t>(

@@ -273,14 +273,16 @@ class BitCounting {
         });
     }
 
-    // Bits are made once, then every row looks at some words in place of entries.
+    // Bits are made once, which takes packs a while, then every row looks at some words in place of
+    // entries.
     bool is_worthwhile(const CountedNest& nest) const {
-        constexpr double cost_of_word = 3, cost_of_entry = 2;
+        constexpr double cost_of_making = 8, cost_of_word = 3, cost_of_entry = 2;
         double entries = 0;
         for (const Row& row : *places_) entries += static_cast<double>(row.size());
         const auto rows = static_cast<double>(places_->size());
+        const auto words = static_cast<double>(word_count());
         const double in_bits =
-            static_cast<double>(size_) + rows * static_cast<double>(word_count()) * cost_of_word;
+            static_cast<double>(size_) + words * (cost_of_making + rows * cost_of_word);
         return entries * (builder_.properties(nest.condition).cost + cost_of_entry) > in_bits;
     }
 

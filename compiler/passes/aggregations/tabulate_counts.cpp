@@ -53,10 +53,15 @@ class CountTabulation {
   private:
     // --------------------------------------------------------------------------- finding
 
+    // For the users of a node: a count may itself be an expression of a count.
     Dependence dependence_of(ir::NodeId id) const {
         const ir::Properties& properties = builder_.properties(id);
+        if (!properties.uniform && is_count(id)) return {.count = id};
+        return dependence_on_operands(id);
+    }
+    Dependence dependence_on_operands(ir::NodeId id) const {
+        const ir::Properties& properties = builder_.properties(id);
         if (properties.uniform) return {.count = {}, .cost = properties.cost};
-        if (is_count(id)) return {.count = id};
         Dependence dependence{.count = {}, .cost = properties.cost};
         for (ir::NodeId operand : ir::operands_of(program_[id])) {
             const Dependence& other = dependences_[operand.index];
@@ -100,9 +105,9 @@ class CountTabulation {
     }
 
     std::optional<ir::NodeId> looked_up(ir::NodeId id) {
-        const auto [only_count, count, cost] = dependences_[id.index];
+        const auto [only_count, count, cost] = dependence_on_operands(id);
         const bool is_candidate = only_count && count && cost >= worth_a_count_table &&
-                                  program_[id].type == ir::Scalar::Real;
+                                  program_[id].type != ir::Scalar::Bool;
         if (!is_candidate || is_bound_inside(*count, id)) return std::nullopt;
         const std::vector<ir::NodeId> cases = cases_of(id, *count);
         const std::vector<ir::VariableId> variables = variables_of(cases);
@@ -291,7 +296,7 @@ class CountTabulation {
         }
         ir::Buffer table{.name = name,
                          .storage = ir::Storage::Constant,
-                         .scalar = ir::Scalar::Real,
+                         .scalar = static_cast<ir::Scalar>(values.front().index()),
                          .shape = std::move(shape),
                          .span = span_};
         table.values = std::move(values);

@@ -9,7 +9,8 @@
 //
 //     burning-by-count[burning-kind[x], sum[e in row[x]](int(state.burning[e]))]
 //
-// Only reals, and only where no entry faults and enough work is saved for the size of the table.
+// Reals and ints only, and only where no entry faults and enough work is saved for the size of the
+// table.
 #pragma once
 
 #include "ir/ir.hpp"

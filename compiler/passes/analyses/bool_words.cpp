@@ -8,7 +8,7 @@
 namespace rddlc::passes {
 namespace {
 
-constexpr std::int64_t few_objects = 48;
+constexpr std::int64_t few_objects = 16;
 
 // Depends on which object it is, or on something that a statement of the loop names.
 bool differs(const ir::Program& program, ir::NodeId id, const ir::Nest& nest) {

@@ -11,6 +11,8 @@ namespace rddlc::passes {
 namespace {
 
 constexpr std::int64_t fewest_iterations = 8;
+// Bools take one mask of all lanes, and its bits the place of jumps that processors cannot foresee.
+constexpr std::int64_t fewest_bools = 4;
 
 }  // namespace
 
@@ -21,8 +23,9 @@ ObjectLanes::ObjectLanes(const ir::Program& program, PropertiesOf properties_of,
       nest_(std::move(nest)),
       is_element_(std::move(is_element)) {}
 
-bool ObjectLanes::are_enough() const {
-    return ir::combinations(program_, nest_.variables) >= fewest_iterations;
+bool ObjectLanes::are_enough(ir::Scalar scalar) const {
+    return ir::combinations(program_, nest_.variables) >=
+           (scalar == ir::Scalar::Bool ? fewest_bools : fewest_iterations);
 }
 
 bool ObjectLanes::can_evaluate(ir::NodeId id) const {

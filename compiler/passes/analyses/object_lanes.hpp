@@ -22,8 +22,8 @@ class ObjectLanes {
     ObjectLanes(const ir::Program& program, PropertiesOf properties_of, ir::Nest nest,
                 std::function<bool(ir::NodeId)> is_element = nullptr);
 
-    // Too few iterations do not fill the registers.
-    bool are_enough() const;
+    // Too few iterations, which give such values, do not fill the registers.
+    bool are_enough(ir::Scalar scalar) const;
     bool can_evaluate(ir::NodeId id) const;
     bool can_store(const ir::Store& store) const;
 

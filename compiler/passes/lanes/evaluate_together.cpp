@@ -45,9 +45,7 @@ class Marking {
             const auto* store = std::get_if<ir::Store>(&statement.form);
             if (!store) continue;
             const ir::Scalar scalar = program_[store->target].scalar;
-            if (scalar == ir::Scalar::Int && !properties_[store->value.index].random &&
-                !aggregates(store->value))
-                return false;
+            if (scalar == ir::Scalar::Int && !is_worth_it(store->value)) return false;
             cost += cost_of(store->value);
             draws_or_is_bool &=
                 scalar == ir::Scalar::Bool || properties_[store->value.index].random;
@@ -64,11 +62,15 @@ class Marking {
                           (store && is_of_bools(program_, store->value, nest));
                });
     }
-    bool aggregates(ir::NodeId id) const {
+    // An int that is drawn, aggregated, or made from a real, such as a sign. C++ compilers put
+    // other loops over ints into registers themselves.
+    bool is_worth_it(ir::NodeId id) const {
         const ir::Node& node = program_[id];
-        return std::holds_alternative<ir::Reduce>(node.form) ||
-               std::ranges::any_of(ir::operands_of(node),
-                                   [&](ir::NodeId operand) { return aggregates(operand); });
+        if (properties_[id.index].random || std::holds_alternative<ir::Reduce>(node.form))
+            return true;
+        return std::ranges::any_of(ir::operands_of(node), [&](ir::NodeId operand) {
+            return program_[operand].type == ir::Scalar::Real || is_worth_it(operand);
+        });
     }
     double cost_of(ir::NodeId id) const { return properties_[id.index].cost; }
 
@@ -77,14 +79,15 @@ class Marking {
         const ObjectLanes several(
             program_, [&](ir::NodeId id) -> const ir::Properties& { return properties_[id.index]; },
             nest);
-        return several.are_enough() &&
-               std::ranges::all_of(*nest.body, [&](const ir::Statement& statement) {
-                   return match(
-                       statement.form,
-                       [&](const ir::Let& let) { return several.can_evaluate(let.value); },
-                       [&](const ir::Store& store) { return several.can_store(store); },
-                       [](const auto&) { return false; });
-               });
+        return std::ranges::all_of(*nest.body, [&](const ir::Statement& statement) {
+            return match(
+                statement.form, [&](const ir::Let& let) { return several.can_evaluate(let.value); },
+                [&](const ir::Store& store) {
+                    return several.are_enough(program_[store.target].scalar) &&
+                           several.can_store(store);
+                },
+                [](const auto&) { return false; });
+        });
     }
 
     const ir::Program& program_;

@@ -64,7 +64,9 @@ class Separation {
         const ObjectLanes several = several_of(nest, is_one);
         double rest = builder_.properties(store->value).cost;
         for (const ir::NodeId id : aggregations) rest -= builder_.properties(id).cost;
-        if (rest < worth_separating || !several.are_enough() || !several.can_store(*store)) return;
+        if (rest < worth_separating || !several.are_enough(program_[store->target].scalar) ||
+            !several.can_store(*store))
+            return;
 
         std::map<ir::NodeId, ir::NodeId> elements;
         for (const ir::NodeId id : aggregations)
@@ -117,29 +119,32 @@ class Separation {
     ir::NodeId with_terms(ir::NodeId value, ir::Block& before) {
         std::map<ir::NodeId, ir::NodeId> known;
         return ir::replace_in(builder_, value, known,
-                              [&](ir::NodeId id) { return sum_of_table(id, before); });
+                              [&](ir::NodeId id) { return over_table(id, before); });
     }
 
-    std::optional<ir::NodeId> sum_of_table(ir::NodeId id, ir::Block& before) {
+    std::optional<ir::NodeId> over_table(ir::NodeId id, ir::Block& before) {
         const bool is_branch = std::holds_alternative<ir::Select>(program_[id].form);
         if (is_branch) return id;  // what is in it is not always evaluated
         if (!std::holds_alternative<ir::Reduce>(program_[id].form)) return std::nullopt;
-        const auto sum = ir::reduction_nest(program_, id);
-        if (!sum || sum->op != Reduction::Sum || !is_worth_a_table(sum->variables, sum->body))
+        const auto nest = ir::reduction_nest(program_, id);
+        const bool is_quantifier = nest && program_[nest->body].type == ir::Scalar::Bool;
+        if (!nest || (nest->op != Reduction::Sum && !is_quantifier) ||
+            !is_worth_a_table(nest->variables, nest->body))
             return id;
-        report_["sums whose terms are computed before"] += 1;
-        const ir::NodeId term = table_of(sum->body, "terms", sum->variables, before);
+        report_[is_quantifier ? "quantifiers whose terms are computed before"
+                              : "sums whose terms are computed before"] += 1;
+        const ir::NodeId term = table_of(nest->body, "terms", nest->variables, before);
         std::get<ir::Loop>(before.back().form).several_at_once = true;
-        return ir::reduced(builder_, sum->op, sum->variables, term);
+        return ir::reduced(builder_, nest->op, nest->variables, term);
     }
 
     bool is_worth_a_table(const Variables& variables, ir::NodeId term) const {
         const ir::Properties& properties = builder_.properties(term);
-        if (program_[term].type != ir::Scalar::Real || properties.may_fault || properties.random ||
+        if (program_[term].type == ir::Scalar::Int || properties.may_fault || properties.random ||
             properties.cost < worth_separating || !is_over(properties, variables))
             return false;
         const ObjectLanes several = several_of({variables, nullptr}, nullptr);
-        return several.are_enough() && several.can_evaluate(term);
+        return several.are_enough(program_[term].type) && several.can_evaluate(term);
     }
 
     // ------------------------------------------------------------------------------------ tables

@@ -15,6 +15,8 @@
 //                                                         reward-terms[t] = select(...)
 //                                                     sum[t in tank](reward-terms[t])
 //
+// So are the bools of an exists or forall.
+//
 // Nothing is computed more often than before, so aggregations in branches stay there, as do those
 // that may fault.
 #pragma once

@@ -19,9 +19,10 @@ constexpr double worth_a_name = 6;
 // How a node below a statement is used.
 struct Use {
     bool is_root = false;
-    bool always = false;    // evaluated whenever the statement is
-    bool repeated = false;  // below a loop of the statement, or a reduction
-    int count = 0;          // by different nodes, or twice by one
+    bool always = false;     // evaluated whenever the statement is
+    bool repeated = false;   // below a loop of the statement, or a reduction
+    double repetitions = 1;  // by these loops and reductions
+    int count = 0;           // by different nodes, or twice by one
 };
 
 // The uses of all nodes below a statement, users before their operands. A statement does not look
@@ -88,17 +89,19 @@ class Sharing {
     ir::Block lets_before(ir::Block& single) {
         Uses uses;
         const bool is_loop = std::holds_alternative<ir::Loop>(single.front().form);
-        for (ir::NodeId root : ir::roots_of(single)) use(uses, root, is_loop);
+        const double repetitions = repetitions_of(single.front());
+        for (ir::NodeId root : ir::roots_of(single)) use(uses, root, is_loop, repetitions);
         return replace_shared(uses, ir::written_buffers(single),
                               [&](const ir::Change& change) { ir::change_roots(single, change); });
     }
 
     // ---------------------------------------------------------------------------- uses
 
-    static void use(Uses& uses, ir::NodeId root, bool repeated) {
+    static void use(Uses& uses, ir::NodeId root, bool repeated, double repetitions = 1) {
         Use& use = uses[root];
         use.is_root = use.always = true;
         use.repeated |= repeated;
+        use.repetitions = std::max(use.repetitions, repetitions);
         ++use.count;
     }
 
@@ -110,6 +113,8 @@ class Sharing {
                 Use& used = uses[operand];
                 ++used.count;
                 used.repeated |= use.repeated || is_body(node, operand);
+                used.repetitions =
+                    std::max(used.repetitions, use.repetitions * repetitions_of(node, operand));
                 used.always |= use.always && !is_lazy(node, operand);
             }
         }
@@ -124,6 +129,29 @@ class Sharing {
 
     static bool is_body(const ir::Node& node, ir::NodeId operand) {
         return ir::bound_variable(node) && operand == ir::operands_of(node).front();
+    }
+
+    double repetitions_of(const ir::Node& node, ir::NodeId operand) const {
+        return is_body(node, operand) ? size_of(*ir::bound_variable(node)) : 1;
+    }
+
+    // Of the innermost statements of loops right inside each other.
+    double repetitions_of(const ir::Statement& statement) const {
+        const auto* loop = std::get_if<ir::Loop>(&statement.form);
+        if (!loop || loop->body.empty()) return 1;
+        return size_of(loop->variable) * repetitions_of(loop->body.front());
+    }
+
+    double size_of(ir::VariableId variable) const {
+        return static_cast<double>(program_[variable].size);
+    }
+
+    // Whether a Let may compute what not each evaluation needs: it costs no more than the loop,
+    // which computes something each time.
+    bool may_be_in_vain(ir::NodeId id, const Use& use) const {
+        const ir::Properties& properties = builder_.properties(id);
+        return use.repeated && !properties.may_fault && !properties.random &&
+               properties.cost <= use.repetitions;
     }
 
     // ------------------------------------------------------------------------ choosing
@@ -156,10 +184,10 @@ class Sharing {
         std::vector<ir::NodeId> chosen;
         for (const ir::NodeId id : fixed) {
             const Use& use = uses.at(id);
-            if (!use.always || is_plain_index(id)) continue;
-            if (builder_.properties(id).cost < worth_a_name) continue;
+            if (is_plain_index(id) || builder_.properties(id).cost < worth_a_name) continue;
             const bool hoisted = use.repeated && exposed.contains(id);
-            if (use.count > 1 || hoisted) chosen.push_back(id);
+            if (use.always ? use.count > 1 || hoisted : hoisted && may_be_in_vain(id, use))
+                chosen.push_back(id);
         }
         return chosen;
     }

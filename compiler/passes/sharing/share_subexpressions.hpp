@@ -8,8 +8,9 @@
 //                                                    next.x = %0 + 1.0 / %0
 //
 // A Let stands before the outermost statement of the block in which all its loop indices are bound,
-// and only for expressions that the statement evaluates in any case: nothing that may fault leaves
-// the lazy branch of a Select. Trivial expressions are repeated instead.
+// and only for expressions that the statement evaluates in any case, or that a lazy branch of a
+// Select in a loop may need again and again: if they cost little beside the loop, and neither fault
+// nor draw. Trivial expressions are repeated instead.
 #pragma once
 
 #include "ir/ir.hpp"

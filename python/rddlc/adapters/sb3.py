@@ -125,7 +125,10 @@ class VecEnv(Base):
         return [rows[place] for place in self._get_indices(indices)]
 
     def get_images(self) -> list[Any]:
-        return list(self.env.render() or ())
+        images = self.env.render()
+        if images is None:
+            raise Error("there are no pictures: make the environments with render_mode='rgb_array', and call reset()")
+        return list(images)
 
     def set_attr(self, attr_name: str, value: Any, indices: Indices = None) -> None:
         setattr(self.env, attr_name, value)

@@ -39,14 +39,14 @@ class DictionaryActions(ABC):
                 view[:] = self._defaults[name]
         columns, entries = _layout(model, counted, grounded=grounded)
         limit = -1 if model.limited_actions is None else model.limited_actions
-        self._native, self._native_asked = (
+        self.native, self._native_asked = (
             _native.DictionaryWriter(records, columns, entries, limit)
             for records in (self._written, self._asked)
         )
 
     def step(self, actions: Any, into: Any = None) -> bool:
         self._batch.finish()
-        if not self._native.write(actions):
+        if not self.native.write(actions):
             self._write(actions, self._written)
         return self._batch.step(into)
 

@@ -105,10 +105,10 @@ class GroundedReader:
             (column.name, column.offset, column.fluent.scalar, isinstance(self.space[column.name], spaces.Box))
             for column in columns
         ]
-        self._native = _native.DictionaryReader(records, named, np.array)
+        self.native = _native.DictionaryReader(records, named)
 
     def read(self) -> dict[str, Any]:
-        return self._native.read()
+        return self.native.read()
 
     def rows(self, *, copy: bool) -> dict[str, Array]:
         return self._rows(self._view.copy() if copy else self._view)

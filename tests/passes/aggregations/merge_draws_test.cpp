@@ -24,6 +24,27 @@ TEST(MergeDraws, FollowsElseIfs) {
         "real(sample bernoulli@0[0](select(state.x > 1.0, 0.3, select(state.x > 2.0, 0.5, 0.9))))");
 }
 
+// The second branch is not drawn.
+TEST(MergeDraws, MakesOneDrawUnderAConditionAlongElseIfs) {
+    EXPECT_EQ(merged("if (x > 3.0) then Bernoulli(0.3) else if (x > 2.0) then x > 2.5 "
+                     "else if (x > 1.0) then Bernoulli(0.5) else x > 0.0"),
+              "real(select(state.x > 3.0 || !(state.x > 2.0) && state.x > 1.0, "
+              "sample bernoulli@0[0](select(state.x > 3.0, 0.3, 0.5)), "
+              "select(state.x > 2.0, state.x > 2.5, state.x > 0.0)))");
+    const Texts x = of_x(
+        "if (x > 3.0) then Bernoulli(0.3) else if ((sum_{?o : obj} exp[v(?o)]) > x)"
+        " then Bernoulli(0.5) else x > 0.0",
+        passes::merge_draws);
+    EXPECT_EQ(x.before, x.after);
+}
+
+TEST(MergeDraws, LeavesOutDrawsThatAreDecided) {
+    EXPECT_EQ(merged("if (x > 1.0) then Bernoulli(0.0) else if (x > 0.0) then Bernoulli(1.0) "
+                     "else Bernoulli(x)"),
+              "real(select(state.x > 1.0, false, "
+              "select(state.x > 0.0, true, sample bernoulli@2[0](state.x))))");
+}
+
 TEST(MergeDraws, TellsFaultsOfTheRightDraw) {
     EXPECT_EQ(merged("if (x > 1.0) then Bernoulli(0.3) else Bernoulli(x)"),
               "real(sample bernoulli@1[0](select(state.x > 1.0, 0.3, state.x)))");

@@ -88,6 +88,12 @@ TEST(EvaluateTogether, TakesAggregationsOfElementsThatLieBesideEachOther) {
               "for x in obj, several at once");
 }
 
+TEST(EvaluateTogether, TakesIntsThatAreMadeFromReals) {
+    EXPECT_EQ(loop_over_triples("sgn[C(?x, ?y, ?z) * C(?x, ?y, ?z) - 0.25]", "int"),
+              "for x in obj, several at once");
+    EXPECT_EQ(loop_over_triples("sgn[C(?x, ?y, ?z)]", "int"), "for x in obj");
+}
+
 TEST(EvaluateTogether, LeavesOtherAggregations) {
     for (const char* cpf :
          {"exists_{?w : obj} [u(?x, ?y, ?z, ?w)]", "exists_{?w : obj} [u(?x, ?w, ?y, ?z)]",

@@ -68,6 +68,22 @@ TEST(SeparateAggregations, ComputesTermsBeforeTheyAreAdded) {
     ASSERT_EQ(program.reward.body.size(), 1u);
 }
 
+TEST(SeparateAggregations, ComputesTheBoolsOfQuantifiersBeforeTheyAreTested) {
+    const auto tested = [](const std::string& quantifier, const std::string& term) {
+        passes::Report report;
+        const ir::Program program = separated(
+            with_summed_pairs("0.0", quantifier + "_{?x : obj, ?y : obj} [" + term + "]"), report);
+        return ir::print(program, program.reward.value);
+    };
+    const std::string term = "exp[depth(?x, ?y)] > COST(?x, ?y)";
+    EXPECT_EQ(tested("exists", term),
+              "real(exists[x in obj](exists[y in obj](scratch.reward-terms[x, y])))");
+    EXPECT_EQ(tested("forall", term),
+              "real(forall[x in obj](forall[y in obj](scratch.reward-terms[x, y])))");
+    EXPECT_EQ(tested("exists", "depth(?x, ?y) > COST(?x, ?y)"),
+              "real(exists[x in obj](exists[y in obj](state.depth[x, y] > COST[x, y])))");
+}
+
 TEST(SeparateAggregations, LeavesCheapTermsAndThoseThatAreNotAlwaysAdded) {
     for (const char* reward :
          {"sum_{?x : obj, ?y : obj} [depth(?x, ?y)]",

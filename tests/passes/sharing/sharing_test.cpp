@@ -91,6 +91,28 @@ TEST(ShareSubexpressions, LeavesLazyBranchesAlone) {
     EXPECT_EQ(step_text(shared(before)), step_text(before));
 }
 
+// An exists over three objects costs less than nine evaluations of something, and more than three.
+TEST(ShareSubexpressions, HoistsOutOfLazyBranchesWhatCostsLessThanTheLoop) {
+    const auto with_loop_over = [](const std::string& objects, const std::string& variables,
+                                   const std::string& invariant) {
+        return step_text(shared(
+            grounded({.pvariables = "p(obj) : { state-fluent, bool, default = false };\n"
+                                    "v(obj) : { state-fluent, real, default = 0.0 };\n"
+                                    "k(obj) : { state-fluent, int, default = 0 };\n"
+                                    "t(" +
+                                    objects + ") : { interm-fluent, bool };",
+                      .cpfs = "p'(?o) = p(?o);\nv'(?o) = v(?o);\nk'(?o) = k(?o);\nt(" + variables +
+                              ") = if (p(?o)) then ln[v(?o)] > 0 else " + invariant + ";"})));
+    };
+    const std::string any = "(exists_{?u : obj} p(?u))";
+    const std::string let = "let %0 = exists[u in obj](state.p[u])";
+    EXPECT_NE(with_loop_over("obj, obj", "?o, ?w", any).find(let), std::string::npos);
+    EXPECT_EQ(with_loop_over("obj", "?o", any).find(let), std::string::npos);
+    const std::string may_fault = "(exists_{?u : obj} (div[4, k(?u)] > 2))";
+    EXPECT_EQ(with_loop_over("obj, obj", "?o, ?w", may_fault).find("let %0 = exists"),
+              std::string::npos);
+}
+
 TEST(ShareSubexpressions, SharesWhatACaseDistinctionNeedsInAnyCase) {
     const ir::Program after = shared(grounded(
         one_cpf("s = 0; t(?o) = if ((sum_{?u : obj} v(?u)) > 1) then 1 / sum_{?u : obj} v(?u) "

@@ -1,8 +1,8 @@
 // Two policies with the same luck: episodes side by side, and the returns of many.
-import { ask, byId, followJob, guardedBy, make, shown } from "./server.js";
+import { ask, byId, followJob, guardedBy, make, say, shown } from "./server.js";
 import { Episode, Transport } from "./episode.js";
 import { texts } from "./problem.js";
-import { problemIsBroken, say, seedOf } from "./try.js";
+import { problemIsBroken, seedOf } from "./try.js";
 
 const sides = [new Episode("left", { title: "first" }), new Episode("right", { title: "second", color: "--second" })];
 const transport = new Transport(sides);
@@ -72,7 +72,9 @@ function outcome({ policies, pairs, difference }) {
     make("tr", {}, make("th", { textContent: name, scope: "row" }), ...policies.map((one) => make("td", { textContent: text(one) }))))));
   const { mean, half_width_95: half } = difference;
   const isSure = Math.abs(mean) > half;
-  const verdict = pairs < 2 ? "" : !isSure ? "No difference can be told from so many episodes."
+  const faulty = policies.filter((one) => one.faulted > 0)
+    .map((one) => `Faults ended ${one.faulted} of ${one.episodes} episodes of “${one.policy}”, so its return is of fewer steps.`);
+  const verdict = faulty.length ? faulty.join(" ") : pairs < 2 ? "" : !isSure ? "No difference can be told from so many episodes."
     : `“${policies[mean > 0 ? 1 : 0].policy}” has the greater return.`;
   return [make("div", { className: "table" }, table),
     make("p", { id: "verdict", textContent: `Difference of the same episodes, second minus first: ${interval(difference)} (${pairs} pairs, 95 % confidence). ${verdict}` })];

@@ -1,5 +1,5 @@
 // The page begins here.
-import { ask, byId, Gone, make, watch } from "./server.js";
+import { ask, byId, Gone, make, say, watch } from "./server.js";
 import { setWords } from "./words.js";
 import { check, openProblem } from "./problem.js";
 import { startTry, textsChanged, usePolicy } from "./try.js";
@@ -43,6 +43,13 @@ watch((state) => {
   if (comesBack) check();
 });
 
+// What was wrong with the texts before may be repaired now.
+function changed() {
+  for (const id of ["try-message", "compare-message", "train-message"])
+    if (byId(id).classList.contains("bad")) say(id, "");
+  textsChanged();
+}
+
 function fillPolicies(planners) {
   const names = ["random", "noop", "rddl", ...planners.map(({ name }) => name)];
   const summaries = Object.fromEntries(planners.map(({ name, summary }) => [name, summary]));
@@ -63,7 +70,7 @@ async function start() {
   keepForms();
   for (const button of document.querySelectorAll("[data-shows]")) button.addEventListener("click", () => show(button.dataset.shows));
   show(sessionStorage.getItem("rddl-view") ?? "edit");
-  await openProblem(information, textsChanged);
+  await openProblem(information, changed);
   await startTry();
   await startCompare();
   await startTrain({

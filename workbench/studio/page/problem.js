@@ -1,5 +1,5 @@
 // The texts: editors, the language server, drafts, files.
-import { ask, byId, isAlive, make, Refused, tab } from "./server.js";
+import { ask, byId, isAlive, make, Refused, say, tab } from "./server.js";
 import { Editor } from "./editor.js";
 
 const pause = 150;  // milliseconds without a key before the texts are checked
@@ -8,6 +8,7 @@ const documents = [];  // of which there are one or two
 let current = 0;
 let hasErrors = false;
 let onChange = () => {};
+const tell = (text, isBad) => say("edit-message", text, isBad);
 
 // Browsers have "\n" alone in text areas. Files keep the ends of lines that they had.
 const fileText = ({ editor, lineEnd }) => editor.text.replaceAll("\n", lineEnd);
@@ -64,10 +65,27 @@ function changes() {
   return found;
 }
 
-// The result of one request about a document; the texts are not checked for it.
+// Sends changes and other messages; the texts are not checked for it. One request follows the other,
+// since two on their way at once may arrive in another order.
+let lastSent = Promise.resolve();
+function send(...others) {
+  const answer = lastSent.then(async () => {
+    const all = [...changes(), ...others];
+    return all.length ? (await ask("language", { messages: all, checks: false })).messages : [];
+  });
+  lastSent = answer.catch(() => { forgetSent(); });
+  return answer;
+}
+
+// A program that was started again knows nothing.
+function forgetSent() {
+  for (const document of documents) document.sent = 0;
+}
+
+// The result of one request about a document.
 async function request(document, method, params = {}) {
   const asked = message(`textDocument/${method}`, { textDocument: { uri: document.uri }, ...params });
-  const { messages } = await ask("language", { messages: [...changes(), asked], checks: false });
+  const messages = await send(asked);
   return messages.find((each) => each.id === asked.id)?.result ?? null;
 }
 
@@ -85,7 +103,8 @@ async function check() {
   try {
     while (isStale) {
       isStale = false;
-      const { messages } = await ask("language", { messages: changes() });
+      await send();
+      const { messages } = await ask("language", { messages: [] });
       for (const { method, params } of messages) {
         const document = documents.find((each) => each.uri === params?.uri);
         if (method !== "textDocument/publishDiagnostics" || !document) continue;
@@ -95,7 +114,7 @@ async function check() {
     }
     listProblems();
   } catch {
-    for (const document of documents) document.sent = 0;  // a program that was started again knows nothing
+    forgetSent();
   } finally {
     clearInterval(clock);
     isChecking = false;
@@ -143,12 +162,13 @@ function problemItem({ document, diagnostic }) {
   if (hint) item.append(make("div", { className: "advice", textContent: `hint: ${hint}` }));
   const fix = make("button", { type: "button", className: "fix", textContent: "Repair", hidden: true });
   item.append(fix);
+  const { version } = document;
   fixesAt(document, range).then((fixes) => {
     const own = fixes.find((each) => each.kind === "quickfix" && each.diagnostics.some((one) => JSON.stringify(one) === JSON.stringify(diagnostic)));
     if (!own) return;
     fix.textContent = own.title;
     fix.hidden = false;
-    fix.addEventListener("click", () => apply(own.edit.changes));
+    fix.addEventListener("click", () => applyTo(document, version, own));
   }).catch(() => {});
   return item;
 }
@@ -157,6 +177,11 @@ function goTo(document, position) {
   showDocument(documents.indexOf(document));
   document.editor.goTo(position);
   moved(document);
+}
+
+// A fix is one of the text that it was made for. If the text has changed, another one is on its way.
+function applyTo(document, version, fix) {
+  if (document.version === version) apply(fix.edit.changes);
 }
 
 const fixesAt = async (document, range) => (await request(document, "codeAction", { range, context: { diagnostics: [] } })) ?? [];
@@ -185,10 +210,10 @@ function nextProblem() {
 
 async function repairHere() {
   const document = documents[current];
-  const position = document.editor.position();
+  const position = document.editor.position(), { version } = document;
   const fix = (await fixesAt(document, { start: position, end: position })).find(({ kind }) => kind === "quickfix");
-  if (fix) apply(fix.edit.changes);
-  else byId("about").textContent = "no problem here has a certain repair";
+  if (fix) applyTo(document, version, fix);
+  else tell("no problem here has a certain repair");
 }
 
 // The name at the cursor, in words.
@@ -227,18 +252,23 @@ function readDraft(key) {
   }
 }
 
-// The latest draft of a tab that is closed.
-async function offerEarlierDraft() {
+// The latest draft of a tab that is closed. One that is closed at this moment is alive a little longer.
+async function offerEarlierDraft(triesLeft = 10) {
   const begin = draftKey("");
   const keys = Object.keys(localStorage).filter((key) => key.startsWith(begin) && key !== draftKey(tab));
   const found = [];
+  let isHeld = false;
   for (const key of keys) {
     const draft = readDraft(key);
-    if (!draft || await isAlive(key.slice(begin.length))) continue;
-    if (draft.domain === texts().domain && draft.instance === texts().instance) localStorage.removeItem(key);
+    if (!draft) continue;
+    if (await isAlive(key.slice(begin.length))) isHeld = true;
+    else if (draft.domain === texts().domain && draft.instance === texts().instance) localStorage.removeItem(key);
     else found.push({ key, draft });
   }
-  if (found.length === 0) return;
+  if (found.length === 0) {
+    if (isHeld && triesLeft > 0) setTimeout(() => offerEarlierDraft(triesLeft - 1), 500);
+    return;
+  }
   const { key, draft } = found.sort((a, b) => b.draft.time - a.draft.time)[0];
   byId("earlier-text").textContent = `Texts of ${new Date(draft.time).toLocaleString()} were not saved.`;
   byId("earlier").hidden = false;
@@ -261,6 +291,7 @@ function changed(document) {
   ++document.version;
   clearTimeout(checkTimer);
   checkTimer = setTimeout(() => { keepDraft(); check(); }, pause);
+  tell("");
   showState();
   onChange();
 }
@@ -282,10 +313,10 @@ async function save(force = false) {
     byId("save").textContent = "Save";
     documents.forEach((document, k) => { document.saved = k ? written.instance : written.domain; });
     keepDraft();
-    byId("about").textContent = "saved";
+    tell("saved");
   } catch (error) {
     if (error instanceof Refused && /another program has/.test(error.message)) byId("save").textContent = "Save over it";
-    byId("about").textContent = error.message;
+    tell(error.message, true);
   }
 }
 
@@ -302,7 +333,7 @@ async function format() {
   const document = documents[current];
   const edits = await request(document, "formatting", { options: { tabSize: 4, insertSpaces: true } });
   if (edits?.length) apply({ [document.uri]: edits });
-  else byId("about").textContent = document.diagnostics.length ? "a text with errors stays as it is" : "it is in this form already";
+  else tell(document.diagnostics.length ? "a text with errors stays as it is" : "it is in this form already");
 }
 
 async function openFile(event) {
@@ -330,7 +361,7 @@ export async function openProblem(information, changeSeen) {
   byId("save").hidden = !opened.can_save;
   byId("save").addEventListener("click", () => save(byId("save").textContent !== "Save"));
   byId("download").addEventListener("click", download);
-  byId("format").addEventListener("click", () => format().catch((error) => { byId("about").textContent = error.message; }));
+  byId("format").addEventListener("click", () => format().catch((error) => tell(error.message, true)));
   byId("file").addEventListener("change", openFile);
   byId("edit").addEventListener("keydown", (event) => {
     const actions = { F8: nextProblem, ".": event.ctrlKey && repairHere };

@@ -16,27 +16,25 @@ export class Gone extends Error {}
 // has the name of another one that is alive, and takes a new one.
 const nameOfLock = (name) => `rddl-studio/${name}`;
 
-function hold(name) {
+// Whether the lock is there within so many milliseconds.
+function hold(name, patience) {
   if (!navigator.locks) return Promise.resolve(true);
   return new Promise((tell) => {
-    navigator.locks.request(nameOfLock(name), { ifAvailable: true }, (lock) => {
-      tell(lock !== null);
-      return lock && new Promise(() => {});  // for as long as the tab lives
-    });
+    navigator.locks.request(nameOfLock(name), { signal: AbortSignal.timeout(patience) }, () => {
+      tell(true);
+      return new Promise(() => {});  // for as long as the tab lives
+    }).catch(() => tell(false));
   });
 }
 
-// The page that is reloaded may hold its lock a moment longer.
+// The page before a reload holds its lock until it is gone, which takes long on a busy machine.
 async function chooseName() {
-  const pause = () => new Promise((resolve) => setTimeout(resolve, 50));
   const before = sessionStorage.getItem("rddl-tab");
-  for (let tries = 0; before && tries < 6; ++tries) {
-    if (await hold(before)) return before;
-    await pause();
-  }
+  const isReload = performance.getEntriesByType("navigation")[0]?.type === "reload";
+  if (before && await hold(before, isReload ? 10000 : 1000)) return before;
   const name = Array.from(crypto.getRandomValues(new Uint8Array(12)), (byte) => byte.toString(16).padStart(2, "0")).join("");
   sessionStorage.setItem("rddl-tab", name);
-  await hold(name);
+  await hold(name, 1000);
   return name;
 }
 export const tab = await chooseName();
@@ -119,6 +117,12 @@ export function make(tag, properties = {}, ...children) {
   const element = Object.assign(document.createElement(tag), properties);
   element.append(...children);
   return element;
+}
+
+// Shows a sentence at the place for messages of a view.
+export function say(id, text, isBad = false) {
+  byId(id).textContent = text;
+  byId(id).classList.toggle("bad", isBad);
 }
 
 // A number in about five digits.

@@ -1,8 +1,8 @@
 // Learning a policy, with the curve as it grows.
-import { ask, byId, followJob, guardedBy, make, shown } from "./server.js";
+import { ask, byId, followJob, guardedBy, make, say, shown } from "./server.js";
 import { Chart } from "./chart.js";
 import { texts } from "./problem.js";
-import { problemIsBroken, say, seedOf } from "./try.js";
+import { problemIsBroken, seedOf } from "./try.js";
 
 const chart = new Chart("return");
 const tell = (text, isBad) => say("train-message", text, isBad);

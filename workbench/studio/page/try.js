@@ -1,5 +1,5 @@
 // One episode: played by policies, or by hand.
-import { ask, byId, guardedBy, make, shown } from "./server.js";
+import { ask, byId, guardedBy, make, say, shown } from "./server.js";
 import { Episode, Transport } from "./episode.js";
 import { isBroken, texts } from "./problem.js";
 
@@ -10,10 +10,6 @@ let fields = [];    // of the action
 
 export const seedOf = (id) => Math.max(0, Math.round(Number(byId(id).value) || 0));
 
-export function say(id, text, isBad = false) {
-  byId(id).textContent = text;
-  byId(id).classList.toggle("bad", isBad);
-}
 const tell = (text, isBad) => say("try-message", text, isBad);
 const guarded = guardedBy(tell);
 

@@ -1,0 +1,75 @@
+#!/usr/bin/env python3
+"""Simulated steps a second inside each planner, beside those of the engine's batch: processor time counts, on one core.
+
+    benchmarks/solvers/planner_speed.py [--rddl PROGRAM] [--repetitions 3] [--only uct]
+
+Steps are those that the planner reports (--explain-decisions). The time is that of decisions with many steps less that of decisions
+with few; the best of some repetitions counts.
+"""
+
+import argparse
+import json
+import resource
+import subprocess
+import tempfile
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+DISCRETE = ["Elevators_MDP_ippc2011", "GameOfLife_MDP_ippc2011", "SysAdmin_MDP_ippc2011"]
+REAL = ["HVAC_ippc2023", "UAV_ippc2023", "Reservoir_ippc2023"]
+PLANNERS = [
+    ("plan:cem", DISCRETE + REAL),
+    ("plan:rollout,policy=random", DISCRETE + REAL),
+    ("plan:uct", DISCRETE),
+    ("plan:gradient", REAL),
+]
+HORIZON = 5
+FEW, MANY = 5_000, 205_000
+
+
+def processor_seconds(words):
+    before = resource.getrusage(resource.RUSAGE_CHILDREN)
+    subprocess.run([str(w) for w in words], check=True, capture_output=True)
+    after = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
+
+
+def engine_rate(rddl, problem):
+    """Steps of the fastest batch."""
+    words = [rddl, "bench", problem, "1", "--threads", "1", "--seconds", "0.3", "--json"]
+    found = json.loads(subprocess.run([str(w) for w in words], check=True, capture_output=True, text=True).stdout)
+    return max(each["steps"] / each["processor_seconds"] for each in found["measurements"])
+
+
+def planner_rate(rddl, problem, planner, repetitions):
+    def run(steps):
+        with tempfile.TemporaryDirectory() as folder:
+            thoughts = Path(folder) / "thoughts.jsonl"
+            seconds = processor_seconds([rddl, "evaluate", problem, "1", "--policy", f"{planner},steps={steps}", "--episodes", "1",
+                                         "--horizon", HORIZON, "--threads", "1", "--engine", "compiled",
+                                         "--explain-decisions", thoughts])
+            return seconds, sum(json.loads(line)["steps"] for line in thoughts.read_text().splitlines())
+
+    few, many = (min(run(steps) for _ in range(repetitions)) for steps in (FEW, MANY))
+    return (many[1] - few[1]) / (many[0] - few[0])
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--rddl", type=Path, default=ROOT / "build/bin/rddl")
+    parser.add_argument("--repetitions", type=int, default=3)
+    parser.add_argument("--only", default="", help="a part of the planner's name")
+    options = parser.parse_args()
+    print(f"{'problem':26} {'planner':28} {'M steps/s':>10} {'of the engine':>14}")
+    rates = {}
+    for planner, problems in PLANNERS:
+        if options.only not in planner:
+            continue
+        for problem in problems:
+            rates.setdefault(problem, engine_rate(options.rddl, problem))
+            rate = planner_rate(options.rddl, problem, planner, options.repetitions)
+            print(f"{problem:26} {planner:28} {rate / 1e6:10.2f} {100 * rate / rates[problem]:12.1f} %", flush=True)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,149 @@
+#include "planners/uct/determinised_problem.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace rddlc::planners {
+
+namespace {
+
+constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+
+}  // namespace
+
+void DeterminisedProblem::clear() {
+    states_.assign(1, State{});
+    records_.assign(state_size_, std::byte{0});
+    moves_.clear();
+    ids_.clear();
+    set_depth(depth_);
+}
+
+std::size_t DeterminisedProblem::bytes() const {
+    return states_.size() * (sizeof(State) + state_size_) + ids_.bytes() +
+           moves_.size() * sizeof(Move) + courses_.size() * sizeof(Course);
+}
+
+DeterminisedProblem::StateId DeterminisedProblem::state_of(const std::byte* its_record) {
+    const auto [id, is_new] =
+        ids_.add(hash_of(its_record, state_size_), static_cast<StateId>(states_.size()));
+    if (is_new) {
+        states_.emplace_back();
+        records_.insert(records_.end(), its_record, its_record + state_size_);
+        courses_.resize(courses_.size() + static_cast<std::size_t>(depth_), {unknown, over});
+    }
+    return id;
+}
+
+void DeterminisedProblem::set_depth(std::int64_t depth) {
+    depth_ = depth;
+    courses_.assign(states_.size() * static_cast<std::size_t>(depth), {unknown, over});
+}
+
+void DeterminisedProblem::begin_visit(std::span<const StateId> states) {
+    ++visit_;
+    front_.clear();
+    for (const StateId state : states) {
+        if (states_[state].visit == visit_) continue;
+        states_[state].visit = visit_;
+        front_.push_back(state);
+    }
+}
+
+std::int64_t DeterminisedProblem::affordable_depth(StateId root, std::int64_t most,
+                                                   std::size_t most_states, TypicalSteps& steps,
+                                                   BudgetMeter& meter) {
+    begin_visit({&root, 1});
+    std::size_t met = 0;
+    for (std::int64_t depth = 0; depth < most; ++depth) {
+        met += front_.size();
+        if (depth > 0 && met > most_states) return depth;
+        if (!open_front(steps, meter)) return depth;
+        move_front(0);
+        if (front_.empty()) return most;
+    }
+    return most;
+}
+
+bool DeterminisedProblem::open(std::span<const StateId> states, TypicalSteps& steps,
+                               BudgetMeter& meter) {
+    begin_visit(states);
+    for (std::int64_t left = depth_; left > 0 && !front_.empty(); --left) {
+        if (!open_front(steps, meter)) return false;
+        move_front(left - 1);
+    }
+    return true;
+}
+
+bool DeterminisedProblem::open_front(TypicalSteps& steps, BudgetMeter& meter) {
+    closed_.clear();
+    for (const StateId state : front_)
+        if (!states_[state].is_open) closed_.push_back(state);
+    for (std::size_t first = 0; first < closed_.size(); first += steps.most_states()) {
+        const std::size_t count = std::min(steps.most_states(), closed_.size() - first);
+        const auto cost = static_cast<std::int64_t>(count) * steps.cost();
+        if (!meter.has_room(cost, 0)) return false;
+        wanted_.clear();
+        for (std::size_t k = 0; k < count; ++k) wanted_.push_back(record(closed_[first + k]));
+        steps.run(wanted_);
+        meter.add_steps(cost);
+        for (std::size_t k = 0; k < count; ++k) take_moves(closed_[first + k], k, steps);
+    }
+    return true;
+}
+
+void DeterminisedProblem::take_moves(StateId state, std::size_t place, const TypicalSteps& steps) {
+    const auto first = static_cast<std::uint32_t>(moves_.size());
+    bool stays = true;
+    for (std::size_t a = 0; a < steps.action_count(); ++a) {
+        if (!steps.is_legal(place, a)) continue;
+        const std::byte* const next = steps.next(place, a);
+        const double reward = steps.reward(place, a);
+        moves_.push_back({static_cast<std::uint32_t>(a), next ? state_of(next) : over, reward});
+        stays = stays && steps.is_unchanged(place, a) && reward == moves_[first].reward;
+    }
+    states_[state].first_move = first;
+    states_[state].move_count = static_cast<std::uint32_t>(moves_.size()) - first;
+    states_[state].stays = stays;
+    states_[state].is_open = true;
+}
+
+// States that were met already, or whose values are known to the end of the search, are not visited
+// again.
+void DeterminisedProblem::move_front(std::int64_t steps_left) {
+    next_front_.clear();
+    for (const StateId state : front_)
+        for (const Move& move : moves(state)) {
+            State& next = states_[move.next];
+            if (move.next == over || next.visit == visit_) continue;
+            next.visit = visit_;
+            if (steps_left > 0 && is_known(move.next, steps_left)) continue;
+            next_front_.push_back(move.next);
+        }
+    front_.swap(next_front_);
+}
+
+bool DeterminisedProblem::is_known(StateId state, std::int64_t steps) const {
+    const std::size_t first = static_cast<std::size_t>(state) * static_cast<std::size_t>(depth_);
+    return !std::isnan(courses_[first + static_cast<std::size_t>(steps - 1)].value);
+}
+
+DeterminisedProblem::Course DeterminisedProblem::after(const Move& move, std::int64_t steps) {
+    if (steps == 1 || move.next == over) return {move.reward, move.next};
+    const Course rest = best(move.next, steps - 1);
+    return {move.reward + discount_ * rest.value, rest.end};
+}
+
+DeterminisedProblem::Course DeterminisedProblem::best(StateId state, std::int64_t steps) {
+    const std::size_t place = static_cast<std::size_t>(state) * static_cast<std::size_t>(depth_) +
+                              static_cast<std::size_t>(steps - 1);
+    if (!std::isnan(courses_[place].value)) return courses_[place];
+    Course found{-std::numeric_limits<double>::infinity(), over};
+    for (const Move& move : moves(state)) {
+        const Course course = after(move, steps);
+        if (course.value > found.value) found = course;
+    }
+    return courses_[place] = found;
+}
+
+}  // namespace rddlc::planners

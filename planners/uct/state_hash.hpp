@@ -1,0 +1,79 @@
+// States by the bytes of their records: keys, and a table of them.
+#pragma once
+
+#include "planners/simulation/random_stream.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <utility>
+#include <vector>
+
+namespace rddlc::planners {
+
+// Two records of 10^6 have the same key with a chance of 10^-7; such are taken for one.
+inline std::uint64_t hash_of(const std::byte* record, std::size_t size, std::uint64_t start = 0) {
+    std::uint64_t key = scrambled(start + 1);
+    std::size_t b = 0;
+    for (; b + 8 <= size; b += 8) {
+        std::uint64_t word;
+        std::memcpy(&word, record + b, 8);
+        key = scrambled(key ^ word) + 0x9E3779B97F4A7C15u;
+    }
+    std::uint64_t rest = 0;
+    if (b < size) std::memcpy(&rest, record + b, size - b);
+    return scrambled(key ^ rest);
+}
+
+// Numbers from 1 on by key. Open addressing with linear probing: a search meets one cache line most
+// of the time, which counts in a search tree.
+class StateTable {
+  public:
+    StateTable() : slots_(first_size) {}
+
+    // NULL: the key is not there.
+    const std::uint32_t* find(std::uint64_t key) const {
+        const Slot& slot = slots_[place_of(key)];
+        return slot.number == 0 ? nullptr : &slot.number;
+    }
+    // The number of the key, which is `number` if the key is new, and whether it is.
+    std::pair<std::uint32_t, bool> add(std::uint64_t key, std::uint32_t number) {
+        if (2 * (count_ + 1) > slots_.size()) grow();
+        Slot& slot = slots_[place_of(key)];
+        if (slot.number != 0) return {slot.number, false};
+        slot = {key, number};
+        ++count_;
+        return {number, true};
+    }
+    void clear() {
+        slots_.assign(first_size, {});
+        count_ = 0;
+    }
+    std::size_t bytes() const { return slots_.size() * sizeof(Slot); }
+
+  private:
+    static constexpr std::size_t first_size = 64;
+    struct Slot {
+        std::uint64_t key = 0;
+        std::uint32_t number = 0;  // 0: empty
+    };
+
+    // Where the key is, or may be put.
+    std::size_t place_of(std::uint64_t key) const {
+        std::size_t place = key & (slots_.size() - 1);
+        while (slots_[place].number != 0 && slots_[place].key != key)
+            place = (place + 1) & (slots_.size() - 1);
+        return place;
+    }
+    void grow() {
+        std::vector<Slot> old(2 * slots_.size());
+        old.swap(slots_);
+        for (const Slot& slot : old)
+            if (slot.number != 0) slots_[place_of(slot.key)] = slot;
+    }
+
+    std::vector<Slot> slots_;
+    std::size_t count_ = 0;
+};
+
+}  // namespace rddlc::planners

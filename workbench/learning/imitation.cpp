@@ -1,0 +1,61 @@
+#include "learning/imitation.hpp"
+
+#include "learning/learned_policy.hpp"
+#include "planners/planner/planner_policy.hpp"
+
+namespace rddlc::workbench {
+
+namespace {
+
+constexpr std::uint64_t seed_of_episodes = 0x696D6974;  // not that of evaluations
+constexpr std::int64_t horizon_without_one = 1000;
+
+void set_policy(Imitation& imitation, const std::string& name) {
+    try {
+        if (planners::is_planner(name)) planners::require_planner(name);
+    } catch (const Failure& failure) {
+        throw solvers::OptionRefused(failure.what());
+    }
+    imitation.policy = name;
+}
+
+solvers::OptionTable<Imitation> make_table() {
+    const solvers::LearnerOption<Imitation> policy{
+        {"--imitate", "imitate", "POLICY",
+         "Begin as this policy acts, such as plan:cem or runs/a: for goals behind costs"},
+        [](Imitation& imitation, const std::vector<std::string>& words) {
+            set_policy(imitation, words.front());
+        },
+        [](const Imitation& imitation) {
+            return imitation.policy;
+        }};
+    return {policy, solvers::number_option<Imitation, std::int64_t>(
+                        {"--imitate-episodes", "imitate_episodes", "N",
+                         "Episodes of it that are imitated (20)"},
+                        [](auto& o) -> auto& { return o.episodes; }, 1, 1'000'000)};
+}
+
+}  // namespace
+
+const solvers::OptionTable<Imitation>& imitation_option_table() {
+    static const solvers::OptionTable<Imitation> table = make_table();
+    return table;
+}
+
+solvers::Demonstrate demonstrate(const rddl_simulator& simulator, const Imitation& imitation,
+                                 std::uint64_t seed, std::int64_t memory_limit,
+                                 const PlannerSettings& planning,
+                                 const std::function<bool()>& stops) {
+    if (imitation.policy.empty()) return {};
+    return [=, &simulator](const solvers::PpoModel& model) {
+        solvers::EpisodeOptions episodes;
+        episodes.episodes = imitation.episodes;
+        episodes.seed = seed + seed_of_episodes;
+        if (simulator.problem->horizon == 0) episodes.horizon = horizon_without_one;
+        const solvers::Policy policy =
+            policy_named(simulator, imitation.policy, false, episodes.seed, memory_limit, planning);
+        return solvers::demonstrations(simulator, model, policy, episodes, stops);
+    };
+}
+
+}  // namespace rddlc::workbench
