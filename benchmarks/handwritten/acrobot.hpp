@@ -50,7 +50,7 @@ struct Acrobot {
         Real shoulder, hand;            // cosines, a quarter turn back
         Real next_shoulder, next_both;  // cosines of the next state
     };
-    // Of one environment all angles are in one register.
+    // All angles of one environment are in one register.
     static Angles<double> angles(const State<rddl::Scalar>& s, const State<rddl::Scalar>& next) {
         const double all[lanes_in_one] = {s.bend, s.angle - pi / 2, s.angle + s.bend - pi / 2,
                                           next.angle, next.bend + next.angle};

@@ -159,7 +159,7 @@ struct Pizza {
         return !all(is_zero(a));
     }
 
-    // Those at risk that stay hot: by the hot ones in each truck that a pizza is in.
+    // The pizzas at risk that stay hot: by the hot ones in each truck that a pizza is in.
     template <class Word>
     static Word hot_beside(const Word& inside, const Word& hot, std::uint64_t pizza) {
         return if_zero(inside & pizza, Word{std::uint64_t{0}}, bit_count(inside & hot));

@@ -24,7 +24,7 @@ struct RecSim {
         typename L::Real provider[providers], consumer[consumers], feature[features][room];
         typename L::Int owner[room];
     };
-    // What is recommended to each consumer: one item, or none.
+    // The recommendation to each consumer: one item, or no item.
     static constexpr std::int64_t none = items;
     template <class L>
     struct Actions {
@@ -95,7 +95,7 @@ struct RecSim {
         return shares;
     }
 
-    // The competence of each provider, and of nobody.
+    // The competence of each provider, and that of no provider.
     static constexpr auto competence = [] {
         std::array<std::array<double, providers + 1>, features> all{};
         for (std::size_t p = 0; p < providers; ++p)

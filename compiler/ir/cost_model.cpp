@@ -38,7 +38,7 @@ double length_of(const Program& program, const Bounds& bounds, double size) {
 // where that is possible.
 class BlockCost {
   public:
-    // Of packs if the properties of all nodes are there: they run over one object after the other.
+    // The cost is that of packs, which take one object after the other, if properties are given.
     BlockCost(const Program& program, std::span<const Properties> properties)
         : program_(program), properties_(properties) {}
     void add_body(const Block& body) {

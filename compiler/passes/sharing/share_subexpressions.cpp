@@ -135,7 +135,7 @@ class Sharing {
         return is_body(node, operand) ? size_of(*ir::bound_variable(node)) : 1;
     }
 
-    // Of the innermost statements of loops right inside each other.
+    // How often loops right inside each other run the innermost statement.
     double repetitions_of(const ir::Statement& statement) const {
         const auto* loop = std::get_if<ir::Loop>(&statement.form);
         if (!loop || loop->body.empty()) return 1;
