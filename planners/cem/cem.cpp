@@ -59,7 +59,7 @@ Cem::Cem(const PlannerContext& context, const CemOptions& options)
                static_cast<std::int64_t>(scenarios_ * population_of(context, options, scenarios_)),
                context.horizon),
       repair_(simulator_, space_, futures_.count()),
-      memories_(static_cast<std::size_t>(context.environments)) {
+      memories_(context.environments) {
     lanes_ = static_cast<std::size_t>(futures_.count());
     population_ = lanes_ / scenarios_;
     if (context.base) {
@@ -88,15 +88,13 @@ Cem::Cem(const PlannerContext& context, const CemOptions& options)
 }
 
 Cem::Memory& Cem::memory_of(const DecisionPoint& point) {
-    auto& memory = memories_[static_cast<std::size_t>(point.place)];
-    if (!memory) memory.emplace(space_, Spread{options_.spread});
-    if (point.step == 0 || memory->horizon == 0) {
-        memory->horizon = options_.horizon.value_or(first_horizon);
-        memory->distribution.restart(memory->horizon);
-        memory->kept_count = 0;
-        memory->kept.resize(static_cast<std::size_t>(options_.kept));
-        memory->kept_values.resize(memory->kept.size());
-    }
+    auto& memory = memories_.of(point);
+    if (memory) return *memory;
+    memory.emplace(space_, Spread{options_.spread});
+    memory->horizon = options_.horizon.value_or(first_horizon);
+    memory->distribution.restart(memory->horizon);
+    memory->kept.resize(static_cast<std::size_t>(options_.kept));
+    memory->kept_values.resize(memory->kept.size());
     return *memory;
 }
 

@@ -5,6 +5,7 @@
 
 #include "planners/cem/cem_options.hpp"
 #include "planners/cem/plan_distribution.hpp"
+#include "planners/planner/episode_memories.hpp"
 #include "planners/planner/planner.hpp"
 #include "planners/simulation/base_policy.hpp"
 #include "planners/simulation/budget.hpp"
@@ -75,7 +76,7 @@ class Cem : public Planner {
     solvers::RepairBuffers repair_;
     std::optional<BasePolicy> base_, recorder_;  // of all lanes; of one environment
     std::optional<Futures> recording_;
-    std::vector<std::optional<Memory>> memories_;
+    EpisodeMemories<Memory> memories_;
     std::int64_t steps_ = 0;  // of each plan
     std::vector<float> default_numbers_;
     std::vector<std::int32_t> default_indices_;

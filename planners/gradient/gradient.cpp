@@ -75,7 +75,7 @@ Gradient::Gradient(const PlannerContext& context, const GradientOptions& options
       single_(simulator_, 1, context.horizon),
       repair_(simulator_, space_, futures_.count()),
       single_repair_(simulator_, space_, 1),
-      memories_(static_cast<std::size_t>(context.environments)) {
+      memories_(context.environments) {
     if (!parameters_.any_moves() || derivatives_.front()->action_count() != parameters_.count())
         throw Failure(
             "plan:gradient moves reals, ints between bounds and bools, and this problem "
@@ -95,8 +95,8 @@ Gradient::Gradient(const PlannerContext& context, const GradientOptions& options
 }
 
 Gradient::Memory& Gradient::memory_of(const DecisionPoint& point, RandomStream& stream) {
-    auto& memory = memories_[static_cast<std::size_t>(point.place)];
-    if (memory && point.step > 0) return *memory;
+    auto& memory = memories_.of(point);
+    if (memory) return *memory;
     memory.emplace();
     memory->choice.kind = base_ ? Candidate::Kind::Policy : Candidate::Kind::Noop;
     const std::size_t count = static_cast<std::size_t>(horizon_) * parameters_.count();

@@ -8,6 +8,7 @@
 #include "planners/gradient/ascent.hpp"
 #include "planners/gradient/gradient_options.hpp"
 #include "planners/gradient/population.hpp"
+#include "planners/planner/episode_memories.hpp"
 #include "planners/planner/planner.hpp"
 #include "planners/simulation/base_policy.hpp"
 #include "planners/simulation/budget.hpp"
@@ -82,7 +83,7 @@ class Gradient : public Planner {
     Futures single_;                 // of the action that is made
     solvers::RepairBuffers repair_, single_repair_;
     std::optional<BasePolicy> base_;
-    std::vector<std::optional<Memory>> memories_;
+    EpisodeMemories<Memory> memories_;
 
     double comparison_seconds_ = 0;  // of the last one
     std::vector<Candidate> candidates_;

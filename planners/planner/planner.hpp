@@ -53,8 +53,8 @@ struct Explanation {
 class Planner {
   public:
     virtual ~Planner() = default;
-    // Writes the action record. Where step is 0 the episode of this place begins. Explanation are
-    // added to `explanation`, unless it is NULL.
+    // Writes the action record. Where step is 0, or the episode is another one than in the decision
+    // before, this place has a new episode. Reasons are added to `explanation`, unless it is NULL.
     virtual void decide(const DecisionPoint& point, std::byte* action,
                         Explanation* explanation) = 0;
 };

@@ -11,13 +11,11 @@ constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
 }  // namespace
 
-void DeterminisedProblem::clear() {
-    states_.assign(1, State{});
-    records_.assign(state_size_, std::byte{0});
-    moves_.clear();
-    ids_.clear();
-    set_depth(depth_);
-}
+DeterminisedProblem::DeterminisedProblem(std::size_t state_size, double discount)
+    : state_size_(state_size),
+      discount_(discount),
+      states_(1),
+      records_(state_size_, std::byte{0}) {}
 
 std::size_t DeterminisedProblem::bytes() const {
     return states_.size() * (sizeof(State) + state_size_) + ids_.bytes() +
@@ -30,14 +28,20 @@ DeterminisedProblem::StateId DeterminisedProblem::state_of(const std::byte* its_
     if (is_new) {
         states_.emplace_back();
         records_.insert(records_.end(), its_record, its_record + state_size_);
-        courses_.resize(courses_.size() + static_cast<std::size_t>(depth_), {unknown, over});
     }
     return id;
 }
 
 void DeterminisedProblem::set_depth(std::int64_t depth) {
     depth_ = depth;
-    courses_.assign(states_.size() * static_cast<std::size_t>(depth), {unknown, over});
+    const auto width = static_cast<std::size_t>(depth);
+    if (width <= width_) return;
+    const std::size_t rows = courses_.size() / width_;
+    std::vector<Course> wider(rows * width, {unknown, over});
+    for (std::size_t row = 0; row < rows; ++row)
+        std::copy_n(courses_.data() + row * width_, width_, wider.data() + row * width);
+    courses_.swap(wider);
+    width_ = width;
 }
 
 void DeterminisedProblem::begin_visit(std::span<const StateId> states) {
@@ -102,6 +106,8 @@ void DeterminisedProblem::take_moves(StateId state, std::size_t place, const Typ
         moves_.push_back({static_cast<std::uint32_t>(a), next ? state_of(next) : over, reward});
         stays = stays && steps.is_unchanged(place, a) && reward == moves_[first].reward;
     }
+    states_[state].row = static_cast<std::uint32_t>(courses_.size() / width_);
+    courses_.resize(courses_.size() + width_, {unknown, over});
     states_[state].first_move = first;
     states_[state].move_count = static_cast<std::uint32_t>(moves_.size()) - first;
     states_[state].stays = stays;
@@ -124,8 +130,7 @@ void DeterminisedProblem::move_front(std::int64_t steps_left) {
 }
 
 bool DeterminisedProblem::is_known(StateId state, std::int64_t steps) const {
-    const std::size_t first = static_cast<std::size_t>(state) * static_cast<std::size_t>(depth_);
-    return !std::isnan(courses_[first + static_cast<std::size_t>(steps - 1)].value);
+    return is_open(state) && !std::isnan(courses_[place_of(state, steps)].value);
 }
 
 DeterminisedProblem::Course DeterminisedProblem::after(const Move& move, std::int64_t steps) {
@@ -135,8 +140,7 @@ DeterminisedProblem::Course DeterminisedProblem::after(const Move& move, std::in
 }
 
 DeterminisedProblem::Course DeterminisedProblem::best(StateId state, std::int64_t steps) {
-    const std::size_t place = static_cast<std::size_t>(state) * static_cast<std::size_t>(depth_) +
-                              static_cast<std::size_t>(steps - 1);
+    const std::size_t place = place_of(state, steps);
     if (!std::isnan(courses_[place].value)) return courses_[place];
     Course found{-std::numeric_limits<double>::infinity(), over};
     for (const Move& move : moves(state)) {

@@ -7,6 +7,7 @@
 #include "planners/uct/state_hash.hpp"
 #include "planners/uct/typical_steps.hpp"
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -31,13 +32,13 @@ class DeterminisedProblem {
     };
     // Where episodes are over.
     static constexpr StateId over = 0;
+    // Policies whose rewards after a search may be kept.
+    static constexpr std::size_t most_policies = 2;
 
-    DeterminisedProblem(std::size_t state_size, double discount)
-        : state_size_(state_size), discount_(discount) {
-        clear();
-    }
+    DeterminisedProblem(std::size_t state_size, double discount);
 
-    void clear();
+    // Forgets all, and frees its memory.
+    void clear() { *this = DeterminisedProblem(state_size_, discount_); }
     std::size_t bytes() const;
     StateId state_of(const std::byte* record);
 
@@ -54,8 +55,9 @@ class DeterminisedProblem {
     const std::byte* record(StateId state) const {
         return records_.data() + static_cast<std::size_t>(state) * state_size_;
     }
-    // The mean reward of steps after that state, as the caller has found it; nan at first.
-    double& later(StateId state) { return states_[state].later; }
+    // The mean reward of that policy's steps after that state, as the caller has found it; nan at
+    // first.
+    double& later(StateId state, std::size_t policy) { return states_[state].later[policy]; }
     bool is_open(StateId state) const { return states_[state].is_open; }
     // The legal actions of an open state.
     std::span<const Move> moves(StateId state) const {
@@ -75,7 +77,9 @@ class DeterminisedProblem {
 
   private:
     struct State {
-        double later = std::numeric_limits<double>::quiet_NaN();
+        State() { later.fill(std::numeric_limits<double>::quiet_NaN()); }
+        std::array<double, most_policies> later;
+        std::uint32_t row = 0;  // of an open state: of courses_
         std::uint32_t first_move = 0, move_count = 0;
         std::uint32_t visit = 0;  // of a search: the last one that has met it
         bool is_open = false, stays = false, is_confirmed = false;
@@ -85,6 +89,9 @@ class DeterminisedProblem {
     bool open_front(TypicalSteps& steps, BudgetMeter& meter);
     void take_moves(StateId state, std::size_t place, const TypicalSteps& steps);
     void move_front(std::int64_t steps_left);
+    std::size_t place_of(StateId state, std::int64_t steps) const {
+        return states_[state].row * width_ + static_cast<std::size_t>(steps - 1);
+    }
     bool is_known(StateId state, std::int64_t steps) const;
     Course best(StateId state, std::int64_t steps);
 
@@ -95,7 +102,10 @@ class DeterminisedProblem {
     std::vector<std::byte> records_;
     std::vector<Move> moves_;
     StateTable ids_;
-    std::vector<Course> courses_;  // by state and steps 1 .. depth; nan: unknown
+    // The best courses of open states, a row for each, by steps 1 .. width_; nan: unknown. A lesser
+    // depth leaves them as they are, since a course of so many steps is the same at any depth.
+    std::vector<Course> courses_;
+    std::size_t width_ = 1;
     std::uint32_t visit_ = 0;
     std::vector<StateId> front_, next_front_, closed_;
     std::vector<const std::byte*> wanted_;

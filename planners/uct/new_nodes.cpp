@@ -72,15 +72,27 @@ bool Uct::value_by_determinisation(const DecisionPoint& point, RandomStream& str
         }
         node.is_open = true;
         tree().value_node(node);
-        const auto state = determinised_states_[n];
-        if (!determinised.stays(state)) continue;
-        unchanged_rewards_.resize(new_nodes_.size());
-        unchanged_rewards_[n] = moves.front().reward;
-        if (simulator_.problem->stochastic && !determinised.is_confirmed(state))
-            determinised.confirm(state, stays_unchanged(point, n, stream, meter));
-        if (determinised.stays(state)) lock(node, moves.front().reward);
+        lock_where_it_stays(point, n, stream, meter);
     }
     return true;
+}
+
+// New node n is locked if its state stays in the determinised problem, and draws confirm it. Where
+// the budget does not last for these draws, a later decision may make them.
+void Uct::lock_where_it_stays(const DecisionPoint& point, std::size_t n, RandomStream& stream,
+                              BudgetMeter& meter) {
+    DeterminisedProblem& determinised = memory_->determinised;
+    const auto state = determinised_states_[n];
+    if (!determinised.stays(state)) return;
+    const double reward = determinised.moves(state).front().reward;
+    if (simulator_.problem->stochastic && !determinised.is_confirmed(state)) {
+        unchanged_rewards_.resize(new_nodes_.size());
+        unchanged_rewards_[n] = reward;
+        const std::optional<bool> stays = stays_unchanged(point, n, stream, meter);
+        if (!stays) return;
+        determinised.confirm(state, *stays);
+    }
+    if (determinised.stays(state)) lock(tree().node(new_nodes_[n]), reward);
 }
 
 // The lookahead, and the mean reward of the policy from its end to that of the search.
@@ -91,7 +103,8 @@ double Uct::estimate(const DeterminisedProblem::Move& move, const Node& node) {
     const auto course = determinised.after(move, depth);
     if (course.end == DeterminisedProblem::over || left == depth) return course.value;
     return course.value + std::pow(tree().discount(), static_cast<double>(depth)) *
-                              discounted_steps(left - depth) * determinised.later(course.end);
+                              discounted_steps(left - depth) *
+                              determinised.later(course.end, policy_);
 }
 
 // The discounted sum of a reward of 1 in each of so many steps.
@@ -109,8 +122,9 @@ void Uct::find_ends() {
         if (end_ - tree().node(new_nodes_[n]).step <= determinised.depth()) continue;
         for (const auto& move : determinised.moves(determinised_states_[n])) {
             const auto end = determinised.after(move, determinised.depth()).end;
-            if (end == DeterminisedProblem::over || !std::isnan(determinised.later(end))) continue;
-            determinised.later(end) =
+            if (end == DeterminisedProblem::over || !std::isnan(determinised.later(end, policy_)))
+                continue;
+            determinised.later(end, policy_) =
                 determinised.stays(end) ? determinised.moves(end).front().reward : 0;
             if (!determinised.stays(end)) ends_.push_back(end);
         }
@@ -132,11 +146,11 @@ bool Uct::find_later_rewards(const DecisionPoint& point, RandomStream& stream, B
         if (!meter.has_room(static_cast<std::int64_t>(starts_.size()) * depth, 0) ||
             !continuations_.run(point, starts_, policies_[policy_], meter)) {
             for (std::size_t k = first; k < ends_.size(); ++k)
-                determinised.later(ends_[k]) = std::numeric_limits<double>::quiet_NaN();
+                determinised.later(ends_[k], policy_) = std::numeric_limits<double>::quiet_NaN();
             return false;
         }
         for (std::size_t k = 0; k < starts_.size(); ++k)
-            determinised.later(ends_[first + k / draws]) +=
+            determinised.later(ends_[first + k / draws], policy_) +=
                 continuations_.value(k) / discounted_steps(depth) / static_cast<double>(draws);
     }
     return true;
@@ -182,7 +196,9 @@ bool Uct::value_by_policy(const DecisionPoint& point, RandomStream& stream, Budg
         node.is_open = true;
         if (!by_policy) tree().value_node(node);
         if (by_policy || unchanged_[n] < draws * node.edge_count) continue;
-        if (simulator_.problem->stochastic && !stays_unchanged(point, n, stream, meter)) continue;
+        if (simulator_.problem->stochastic &&
+            !stays_unchanged(point, n, stream, meter).value_or(false))
+            continue;
         lock(node, unchanged_rewards_[n]);
     }
     return true;
@@ -197,8 +213,9 @@ void Uct::lock(Node& node, double reward) {
 }
 
 // Whether it was no accident that no action has changed the state: each one is tried again, often.
-bool Uct::stays_unchanged(const DecisionPoint& point, std::size_t n, RandomStream& stream,
-                          BudgetMeter& meter) {
+// Nothing: the budget does not last.
+std::optional<bool> Uct::stays_unchanged(const DecisionPoint& point, std::size_t n,
+                                         RandomStream& stream, BudgetMeter& meter) {
     const NodeId id = new_nodes_[n];
     const Node& node = tree().node(id);
     const std::size_t all = lock_draws * node.edge_count;
@@ -212,7 +229,7 @@ bool Uct::stays_unchanged(const DecisionPoint& point, std::size_t n, RandomStrea
         }
         if (!meter.has_room(static_cast<std::int64_t>(starts_.size()), 0) ||
             !continuations_.run(point, starts_, policies_[policy_], meter))
-            return false;
+            return std::nullopt;
         for (std::size_t k = 0; k < starts_.size(); ++k)
             if (!is_unchanged(id, n, k)) return false;
     }

@@ -29,6 +29,10 @@ constexpr std::int64_t short_leaf = 2;
 constexpr std::size_t root_draws = 8;
 // An action is not chosen in the end if it was tried less than this part of the one tried most.
 constexpr double least_tried = 0.2;
+// The parts of the memory limit that the memory of an episode may have in a decision, and after it.
+// They depend neither on threads nor on the batch, so that decisions do not either.
+constexpr std::size_t decision_share = 16;
+constexpr std::size_t kept_share = 256;
 
 FiniteActions finite_actions(const rddl_simulator& simulator, int most) {
     const solvers::ActionSpace space = solvers::action_space(simulator);
@@ -73,8 +77,9 @@ Uct::Uct(const PlannerContext& context, const UctOptions& options)
       actions_(finite_actions(simulator_, options.actions)),
       trees_(simulator_, affordable_lanes(options, options.lanes), context.horizon),
       continuations_(simulator_, leaf_lanes(options, actions_.count()), context.horizon),
-      most_bytes_(static_cast<std::size_t>(context.memory_limit / 4 / context.environments)),
-      memories_(static_cast<std::size_t>(context.environments)),
+      most_bytes_(static_cast<std::size_t>(context.memory_limit) / decision_share),
+      most_kept_bytes_(static_cast<std::size_t>(context.memory_limit) / kept_share),
+      memories_(context.environments),
       trials_(trees_.running().size()),
       streams_(trials_.size()),
       records_(trials_.size() * action_size_),
@@ -118,8 +123,8 @@ void Uct::add_edges(NodeId node, const rddl_batch* batch, std::int64_t place) {
 
 // The tree of the decision before is kept, if it looks far enough ahead.
 void Uct::choose_memory(const DecisionPoint& point) {
-    auto& memory = memories_[static_cast<std::size_t>(point.place)];
-    if (!memory || point.step == 0) {
+    auto& memory = memories_.of(point);
+    if (!memory) {
         memory.emplace(Tree(state_size_, simulator_.problem->discount, options_.backup),
                        DeterminisedProblem(state_size_, simulator_.problem->discount));
         memory->tree.clear();
@@ -130,8 +135,7 @@ void Uct::choose_memory(const DecisionPoint& point) {
     end_ = point.left <= depth                      ? step_ + point.left
            : memory->end >= step_ + (depth + 1) / 2 ? std::min(memory->end, step_ + depth)
                                                     : step_ + depth;
-    if (end_ != memory->end || memory->tree.bytes() > most_bytes_ / 2) memory->tree.clear();
-    if (memory->determinised.bytes() > most_bytes_ / 2) memory->determinised.clear();
+    if (end_ != memory->end) memory->tree.clear();
     memory->end = end_;
 }
 
@@ -145,6 +149,7 @@ bool Uct::open_root(const DecisionPoint& point, RandomStream& stream, BudgetMete
     if (known && tree().node(*known).is_open) {
         root_ = *known;
         note_range();
+        confirm_root(point, stream, meter);
         return true;
     }
     root_ = tree().node_of(states_.data(), step_);
@@ -161,6 +166,14 @@ bool Uct::open_root(const DecisionPoint& point, RandomStream& stream, BudgetMete
     // leaves that are looked at more shortly.
     if (least_ == most_) memory_->leaf_depth = short_leaf;
     return true;
+}
+
+// A decision before may have had no budget left for it.
+void Uct::confirm_root(const DecisionPoint& point, RandomStream& stream, BudgetMeter& meter) {
+    if (!is_determinised() || tree().node(root_).is_locked) return;
+    new_nodes_.assign(1, root_);
+    determinised_states_.assign(1, memory_->determinised.state_of(tree().state(root_)));
+    lock_where_it_stays(point, 0, stream, meter);
 }
 
 // As deep as can be done often in the budget.
@@ -341,20 +354,34 @@ EdgeId Uct::best_edge() const {
 void Uct::decide(const DecisionPoint& point, std::byte* action, Explanation* explanation) {
     RandomStream stream(options_.seed, point.episode, point.step);
     BudgetMeter meter(options_.budget, point.stops);
+    try {
+        const EdgeId chosen = search(point, stream, meter);
+        std::copy_n(actions_.record(tree().edge(chosen).action), action_size_, action);
+        if (explanation) note_explanation(*explanation, chosen, meter);
+        keep_below(chosen);
+    } catch (...) {
+        memories_.of(point).reset();  // nodes may be half made
+        throw;
+    }
+}
+
+EdgeId Uct::search(const DecisionPoint& point, RandomStream& stream, BudgetMeter& meter) {
     choose_memory(point);
     choose_policy(point, stream, meter);
     const bool is_open = open_root(point, stream, meter);
-    const bool is_locked = tree().node(root_).is_locked;
-    if (is_open && !is_locked && tree().node(root_).edge_count > 1)
+    const Node& root = tree().node(root_);
+    if (is_open && !root.is_locked && root.edge_count > 1)
         while (meter.has_room(static_cast<std::int64_t>(trials_.size()) * (end_ - step_), 0) &&
-               run_trials(point, stream, meter)) {
+               memory_->bytes() <= most_bytes_ && run_trials(point, stream, meter)) {
         }
-    if (explanation && is_locked)
-        explanation->note = "no action changes the state or the reward any more";
-    const EdgeId chosen = best_edge();
-    std::copy_n(actions_.record(tree().edge(chosen).action), action_size_, action);
-    if (explanation) note_explanation(*explanation, chosen, meter);
-    tree().keep_below(chosen);
+    return best_edge();
+}
+
+// Keeps what the next decision may use, if it is small enough.
+void Uct::keep_below(EdgeId edge) {
+    tree().keep_below(edge);
+    if (tree().bytes() > most_kept_bytes_ / 2) tree().clear();
+    if (memory_->determinised.bytes() > most_kept_bytes_ / 2) memory_->determinised.clear();
 }
 
 void Uct::note_explanation(Explanation& explanation, EdgeId chosen, const BudgetMeter& meter) {
@@ -362,6 +389,7 @@ void Uct::note_explanation(Explanation& explanation, EdgeId chosen, const Budget
     explanation.iterations = meter.iterations();
     explanation.steps = meter.steps();
     const Node& root = tree().node(root_);
+    if (root.is_locked) explanation.note = "no action changes the state or the reward any more";
     explanation.chosen = chosen - root.first_edge;
     for (const Edge& edge : tree().edges(root)) {
         const std::byte* const record = actions_.record(edge.action);

@@ -3,6 +3,7 @@
 // of one batch, and the leaves that they reach are valued together in another one.
 #pragma once
 
+#include "planners/planner/episode_memories.hpp"
 #include "planners/planner/planner.hpp"
 #include "planners/simulation/continuations.hpp"
 #include "planners/simulation/finite_actions.hpp"
@@ -44,15 +45,19 @@ class Uct : public Planner {
         DeterminisedProblem determinised;
         std::int64_t end = 0;         // the step that the tree looks ahead to
         std::int64_t leaf_depth = 0;  // steps by which a policy values a new state, at most
+        std::size_t bytes() const { return tree.bytes() + determinised.bytes(); }
     };
 
     bool is_determinised() const { return initial_ == Initial::Determinised; }
     void choose_memory(const DecisionPoint& point);
     void choose_lookahead(BudgetMeter& meter);
+    EdgeId search(const DecisionPoint& point, RandomStream& stream, BudgetMeter& meter);
+    void keep_below(EdgeId edge);
     Tree& tree() { return memory_->tree; }
     const Tree& tree() const { return memory_->tree; }
     void choose_policy(const DecisionPoint& point, RandomStream& stream, BudgetMeter& meter);
     bool open_root(const DecisionPoint& point, RandomStream& stream, BudgetMeter& meter);
+    void confirm_root(const DecisionPoint& point, RandomStream& stream, BudgetMeter& meter);
     // The trials of one round; false where time was up, and nothing has changed but counts.
     bool run_trials(const DecisionPoint& point, RandomStream& stream, BudgetMeter& meter);
     bool step_trials(RandomStream& stream, std::int64_t depth, BudgetMeter& meter);
@@ -78,8 +83,10 @@ class Uct : public Planner {
                          std::size_t draws);
     void lock(Node& node, double reward);
     void take_values(std::size_t first, std::size_t count);
-    bool stays_unchanged(const DecisionPoint& point, std::size_t n, RandomStream& stream,
-                         BudgetMeter& meter);
+    std::optional<bool> stays_unchanged(const DecisionPoint& point, std::size_t n,
+                                        RandomStream& stream, BudgetMeter& meter);
+    void lock_where_it_stays(const DecisionPoint& point, std::size_t n, RandomStream& stream,
+                             BudgetMeter& meter);
     bool is_unchanged(NodeId id, std::size_t n, std::size_t k) const;
     void note_range();
     void back_up(const Trial& trial);
@@ -95,12 +102,12 @@ class Uct : public Planner {
     FiniteActions actions_;
     Futures trees_;  // trials
     Continuations continuations_;
-    std::vector<BasePolicy> policies_;             // that may play on
-    std::size_t policy_ = 0;                       // that does
-    std::optional<TypicalSteps> typical_steps_;    // of Initial::Determinised
-    std::size_t most_bytes_;                       // of what is kept of an episode
-    std::vector<std::optional<Memory>> memories_;  // by place
-    Memory* memory_ = nullptr;                     // of the decision
+    std::vector<BasePolicy> policies_;           // that may play on
+    std::size_t policy_ = 0;                     // that does
+    std::optional<TypicalSteps> typical_steps_;  // of Initial::Determinised
+    std::size_t most_bytes_, most_kept_bytes_;   // of a memory: in a decision, and after it
+    EpisodeMemories<Memory> memories_;
+    Memory* memory_ = nullptr;  // of the decision
     NodeId root_ = 0;
     std::int64_t step_ = 0;  // of the episode
     std::int64_t end_ = 0;   // the step that the search looks ahead to

@@ -1,5 +1,6 @@
 // Properties of all planners: names, options, budgets, stream of their own.
 #include "planning.hpp"
+#include "solvers/batches/batch.hpp"
 
 #include <gtest/gtest.h>
 
@@ -88,6 +89,20 @@ bool is_finite(const rddl_simulator& simulator) {
     return &simulator == &ladder() || &simulator == &network();
 }
 
+void expect_same(const Played& one, const Played& two) {
+    EXPECT_EQ(one.returns(), two.returns());
+    ASSERT_EQ(one.explanation.size(), two.explanation.size());
+    for (const auto& [place, explanation] : one.explanation) {
+        const Explanation& others = two.explanation.at(place);
+        ASSERT_EQ(explanation.candidates.size(), others.candidates.size());
+        EXPECT_EQ(explanation.steps, others.steps);
+        for (std::size_t c = 0; c < explanation.candidates.size(); ++c) {
+            EXPECT_EQ(explanation.candidates[c].action, others.candidates[c].action);
+            EXPECT_EQ(explanation.candidates[c].value, others.candidates[c].value);
+        }
+    }
+}
+
 TEST(PlannerBudgets, SameStepsGiveTheSameActionsOnAnyNumberOfThreads) {
     for (const rddl_simulator* simulator : {&ladder(), &network(), &reservoir(), &target()})
         for (const char* const planner :
@@ -99,18 +114,19 @@ TEST(PlannerBudgets, SameStepsGiveTheSameActionsOnAnyNumberOfThreads) {
             SCOPED_TRACE(simulator->problem->domain + std::string(" ") + planner);
             const Played one = run(*simulator, planner, 4, 1);
             const Played two = run(*simulator, planner, 4, 2);
-            EXPECT_EQ(one.returns(), two.returns());
-            ASSERT_EQ(one.explanation.size(), two.explanation.size());
-            for (const auto& [place, explanation] : one.explanation) {
-                const Explanation& others = two.explanation.at(place);
-                ASSERT_EQ(explanation.candidates.size(), others.candidates.size());
-                EXPECT_EQ(explanation.steps, others.steps);
-                for (std::size_t c = 0; c < explanation.candidates.size(); ++c) {
-                    EXPECT_EQ(explanation.candidates[c].action, others.candidates[c].action);
-                    EXPECT_EQ(explanation.candidates[c].value, others.candidates[c].value);
-                }
-            }
+            expect_same(one, two);
         }
+}
+
+// What is kept of an episode is forgotten at the same decisions in any batch.
+TEST(PlannerBudgets, ShortMemoryGivesTheSameActionsInAnyBatch) {
+    for (const std::int64_t limit : {1 << 18, 1 << 20, 1 << 22}) {
+        SCOPED_TRACE(limit);
+        const auto in_batches_of = [&](std::int64_t batch) {
+            return run(network(), "plan:uct,steps=3000", 4, 1, 0, {}, limit, batch);
+        };
+        expect_same(in_batches_of(1), in_batches_of(4));
+    }
 }
 
 // Whatever the budget: an action is there, it is legal, and steps are kept to.
@@ -129,6 +145,37 @@ TEST(PlannerBudgets, AreNeverTooShort) {
                 for (const auto& [place, explanation] : plan.explanation)
                     EXPECT_LE(explanation.steps, most);
             }
+}
+
+// A program may begin to ask in the middle of an episode: what it asked in another one counts for
+// nothing.
+TEST(PlannerMemories, AreOfOneEpisode) {
+    for (const std::string planner : {"plan:uct,steps=2000", "plan:cem,steps=2000,horizon=4"}) {
+        SCOPED_TRACE(planner);
+        const auto steps_of = [&](const std::vector<std::int64_t>& episodes) {
+            PolicySettings settings = settings_of(network());
+            Explanation last;
+            settings.explain = [&](const Explanation& explanation) {
+                last = explanation;
+            };
+            const solvers::BatchHandle batch = solvers::create_batch(network(), {});
+            const solvers::Actor actor = planner_policy(network(), planner, settings).start(1);
+            std::vector<std::byte> action(static_cast<std::size_t>(network().problem->action_size));
+            for (const std::int64_t episode : episodes) {
+                const std::int64_t step = 5;
+                const std::uint8_t running = 1;
+                solvers::Decision decision{batch.get(), {&running, 1}, {&episode, 1},
+                                           {&step, 1},  action.data(), {}};
+                actor(decision);
+            }
+            std::vector<double> values;
+            for (const Explanation::Candidate& candidate : last.candidates)
+                values.push_back(candidate.value);
+            return values;
+        };
+        EXPECT_EQ(steps_of({1}), steps_of({0, 1}));
+        EXPECT_EQ(steps_of({1}), steps_of({1}));
+    }
 }
 
 TEST(PlannerBudgets, SecondsEndADecision) {

@@ -76,7 +76,7 @@ struct Played {
 inline Played run(const rddl_simulator& simulator, const std::string& planner,
                   std::int64_t episodes = 1, int threads = 1, std::uint64_t seed = 0,
                   const solvers::DerivativesSource& derivatives = {},
-                  std::int64_t memory_limit = default_memory_limit) {
+                  std::int64_t memory_limit = default_memory_limit, std::int64_t batch = 0) {
     Played plan;
     std::mutex mutex;
     PolicySettings settings = settings_of(simulator);
@@ -91,6 +91,7 @@ inline Played run(const rddl_simulator& simulator, const std::string& planner,
     options.episodes = episodes;
     options.threads = threads;
     options.seed = seed;
+    options.batch = batch;
     options.preconditions = solvers::Preconditions::Warn;  // so that they are counted
     const solvers::Policy policy = planner_policy(simulator, planner, settings);
     solvers::Rollouts rollouts = solvers::run_episodes(simulator, policy, options, {});

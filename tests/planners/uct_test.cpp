@@ -76,6 +76,60 @@ workbench::LoadedProblem corridor() {
     return workbench::load_problem(files, load);
 }
 
+// A decision whose steps do not last for those draws leaves the question to a later one.
+TEST(Uct, SeesLaterWhereNothingChangesIfABudgetWasTooShort) {
+    const workbench::LoadedProblem problem = corridor();
+    const Played plan = run(*problem.simulator, "plan:uct,lanes=1,steps=2100", 3);
+    int over = 0;
+    for (const auto& [place, explanation] : plan.explanation) {
+        const bool is_over = std::ranges::all_of(
+            explanation.candidates, [](const auto& candidate) { return candidate.value == 0; });
+        if (!is_over) continue;
+        ++over;
+        EXPECT_FALSE(explanation.note.empty()) << place.first << " " << place.second;
+    }
+    EXPECT_GT(over, 0);
+}
+
+// An error leaves no half of a node.
+TEST(Uct, ForgetsAnEpisodeAfterAnError) {
+    static int calls_left = 0;
+    static const rddl_simulator& true_one = ladder();
+    rddl_simulator simulator = ladder();
+    simulator.step = [](rddl_batch* batch, const void* actions, const rddl_transition* out) {
+        return --calls_left == 0 ? RDDL_OUT_OF_MEMORY : true_one.step(batch, actions, out);
+    };
+    const solvers::BatchHandle batch = solvers::create_batch(simulator, {});
+    // The values that a decision finds after another one in which that call has failed; 0: none.
+    const auto values_after = [&](int failing_call) {
+        PolicySettings settings = settings_of(simulator);
+        std::vector<double> values;
+        settings.explain = [&](const Explanation& explanation) {
+            for (const Explanation::Candidate& candidate : explanation.candidates)
+                values.push_back(candidate.value);
+        };
+        const solvers::Actor actor =
+            planner_policy(simulator, "plan:uct,iterations=20,lanes=4,initial=lookahead", settings)
+                .start(1);
+        std::vector<std::byte> action(static_cast<std::size_t>(simulator.problem->action_size));
+        const std::int64_t episode = 0, step = 1;
+        const std::uint8_t running = 1;
+        solvers::Decision decision{batch.get(), {&running, 1}, {&episode, 1},
+                                   {&step, 1},  action.data(), {}};
+        calls_left = failing_call;
+        if (failing_call > 0) {
+            EXPECT_ANY_THROW(actor(decision));
+        }
+        calls_left = 0;
+        actor(decision);
+        return values;
+    };
+    const std::vector<double> expected = values_after(0);
+    EXPECT_EQ(expected.size(), 3u);
+    const int calls = -calls_left;
+    for (int call = 1; call <= calls; ++call) EXPECT_EQ(values_after(call), expected) << call;
+}
+
 // A goal that no random play meets is found in the determinised problem: 12 steps, of which each is
 // made 1 / 0.9 times. The mean of 20 episodes has an error of 0.3.
 TEST(Uct, FindsADistantGoal) {
