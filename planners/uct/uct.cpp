@@ -54,14 +54,25 @@ std::int64_t affordable_lanes(const UctOptions& options, std::int64_t wanted) {
     return std::clamp<std::int64_t>(options.budget.steps.value_or(most_steps) / 40, 1, wanted);
 }
 
-Initial initial_of(const UctOptions& options) {
-    return options.initial.value_or(options.policy.empty() ? Initial::Determinised
-                                                           : Initial::Lookahead);
+// Whether the determinised problem values new states in a small part of the budget. Of each action
+// it takes the draws of a typical step and those of what follows (new_nodes.cpp).
+bool may_determinise(const UctOptions& options, std::size_t actions) {
+    constexpr std::size_t most_actions = 64;
+    constexpr std::int64_t steps_of_action = 88, least_states = 8;
+    const std::int64_t steps = static_cast<std::int64_t>(actions) * steps_of_action;
+    return actions <= most_actions &&
+           options.budget.steps.value_or(most_steps) >= least_states * steps;
+}
+
+Initial initial_of(const UctOptions& options, std::size_t actions) {
+    if (options.initial) return *options.initial;
+    if (!options.policy.empty()) return Initial::Lookahead;
+    return may_determinise(options, actions) ? Initial::Determinised : Initial::Rollout;
 }
 
 std::int64_t leaf_lanes(const UctOptions& options, std::size_t actions) {
     const auto each =
-        static_cast<std::int64_t>(initial_of(options) == Initial::Lookahead ? actions : 4);
+        static_cast<std::int64_t>(initial_of(options, actions) == Initial::Lookahead ? actions : 4);
     return std::clamp<std::int64_t>(affordable_lanes(options, options.lanes) * each, 1,
                                     most_leaf_lanes);
 }
@@ -71,10 +82,10 @@ std::int64_t leaf_lanes(const UctOptions& options, std::size_t actions) {
 Uct::Uct(const PlannerContext& context, const UctOptions& options)
     : simulator_(context.simulator),
       options_(options),
-      initial_(initial_of(options)),
       state_size_(static_cast<std::size_t>(simulator_.problem->state_size)),
       action_size_(static_cast<std::size_t>(simulator_.problem->action_size)),
       actions_(finite_actions(simulator_, options.actions)),
+      initial_(initial_of(options, actions_.count())),
       trees_(simulator_, affordable_lanes(options, options.lanes), context.horizon),
       continuations_(simulator_, leaf_lanes(options, actions_.count()), context.horizon),
       most_bytes_(static_cast<std::size_t>(context.memory_limit) / decision_share),
@@ -389,7 +400,10 @@ void Uct::note_explanation(Explanation& explanation, EdgeId chosen, const Budget
     explanation.iterations = meter.iterations();
     explanation.steps = meter.steps();
     const Node& root = tree().node(root_);
-    if (root.is_locked) explanation.note = "no action changes the state or the reward any more";
+    if (root.is_locked)
+        explanation.note = "no action changes the state or the reward any more";
+    else if (meter.iterations() == 0)
+        explanation.note = "the budget did not last for a trial";
     explanation.chosen = chosen - root.first_edge;
     for (const Edge& edge : tree().edges(root)) {
         const std::byte* const record = actions_.record(edge.action);
