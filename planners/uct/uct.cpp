@@ -51,7 +51,7 @@ FiniteActions finite_actions(const rddl_simulator& simulator, int most) {
 }
 
 std::int64_t affordable_lanes(const UctOptions& options, std::int64_t wanted) {
-    return std::clamp<std::int64_t>(options.budget.steps.value_or(most_steps) / 40, 1, wanted);
+    return std::clamp<std::int64_t>(options.budget.steps.value_or(most_steps) / 160, 1, wanted);
 }
 
 // Whether the determinised problem values new states in a small part of the budget. Of each action
