@@ -20,7 +20,7 @@ double size_of(const Program& program, VariableId variable) {
     return static_cast<double>(program[variable].size);
 }
 
-bool draws(const Node& node) {
+bool is_draw(const Node& node) {
     return match(
         node.form, [](const Sample&) { return true; }, [](const Discrete&) { return true; },
         [](const DiscreteOver&) { return true; }, [](const Interval&) { return true; },
@@ -195,7 +195,7 @@ class BlockCost {
     }
     Kind kind_of(NodeId id) const {
         const Node& node = program_[id];
-        if (draws(node)) return &PackCost::draws;
+        if (is_draw(node)) return &PackCost::draws;
         const auto is_one = [&](NodeId operand) {
             return kind_of_value(operand) == &PackCost::block;
         };

@@ -26,6 +26,9 @@ inline constexpr double objects_at_once = 4;
 // The same where values are bools: some instructions take 64 of them from tables to words and back.
 inline constexpr double bools_at_once = 16;
 
+// The elements of a table that a pass may add: environments need memory for it.
+inline constexpr double most_new_elements = 1e6;
+
 double cost_of(Operator op);
 
 // The cost of a node alone: without its operands, and of a Reduce or DiscreteOver without its body,

@@ -105,9 +105,38 @@ nb::object DictionaryReader::value_of(std::size_t column) const {
     return is_array ? array_of(whole) : nb::steal(PyLong_FromLongLong(whole));
 }
 
+int DictionaryReader::traverse(visitproc visit, void* arg) const {
+    for (const Returned& returned : returned_) Py_VISIT(returned.values.ptr());
+    return 0;
+}
+
+// A dictionary that is gone is made again by read().
+void DictionaryReader::clear() {
+    for (Returned& returned : returned_) {
+        const nb::dict dropped = std::move(returned.values);
+    }
+}
+
+namespace {
+
+int traverse_reader(PyObject* self, visitproc visit, void* arg) {
+    Py_VISIT(Py_TYPE(self));
+    return nb::inst_ready(self) ? nb::inst_ptr<DictionaryReader>(self)->traverse(visit, arg) : 0;
+}
+
+int clear_reader(PyObject* self) {
+    if (nb::inst_ready(self)) nb::inst_ptr<DictionaryReader>(self)->clear();
+    return 0;
+}
+
+}  // namespace
+
 void add_dictionary_reader(nb::module_& module) {
+    PyType_Slot slots[] = {{Py_tp_traverse, reinterpret_cast<void*>(traverse_reader)},
+                           {Py_tp_clear, reinterpret_cast<void*>(clear_reader)},
+                           {0, nullptr}};
     nb::class_<DictionaryReader>(
-        module, "DictionaryReader",
+        module, "DictionaryReader", nb::type_slots(slots),
         "Reads the first record as a dictionary of numbers, or of arrays of shape ().")
         .def(nb::init<nb::object, std::vector<NamedColumn>>(), nb::arg("records"),
              nb::arg("columns"))

@@ -23,6 +23,11 @@ class DictionaryReader {
 
     nanobind::dict read();
 
+    // Python's collector of cycles: a program may put anything into a dictionary, the environment
+    // also.
+    int traverse(visitproc visit, void* arg) const;
+    void clear();
+
   private:
     // A dictionary that was returned, and the arrays in it, in the order of the columns.
     struct Returned {

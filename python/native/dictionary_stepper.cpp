@@ -14,7 +14,7 @@ namespace {
 class DictionaryStepper {
   public:
     DictionaryStepper(EnvPool& batch, DictionaryWriter& writer, DictionaryReader& reader)
-        : batch_(batch), writer_(writer), reader_(reader) {}
+        : batch_(batch), writer_(writer), reader_(reader), reader_object_(nb::find(reader)) {}
 
     // The result of env.step(); None, and nothing is done, for what the writer does not take.
     nb::object step(nb::handle action) {
@@ -22,6 +22,12 @@ class DictionaryStepper {
         if (!writer_.write(action)) return nb::none();
         batch_.step({});
         return result();
+    }
+
+    // Python's collector sees through the reader to the dictionaries that programs hold.
+    int traverse(visitproc visit, void* arg) const {
+        Py_VISIT(reader_object_.ptr());
+        return 0;
     }
 
   private:
@@ -36,16 +42,23 @@ class DictionaryStepper {
     EnvPool& batch_;
     DictionaryWriter& writer_;
     DictionaryReader& reader_;
+    nb::object reader_object_;
 };
+
+int traverse_stepper(PyObject* self, visitproc visit, void* arg) {
+    Py_VISIT(Py_TYPE(self));
+    return nb::inst_ready(self) ? nb::inst_ptr<DictionaryStepper>(self)->traverse(visit, arg) : 0;
+}
 
 }  // namespace
 
 void add_dictionary_stepper(nb::module_& module) {
-    nb::class_<DictionaryStepper>(module, "DictionaryStepper",
+    PyType_Slot slots[] = {{Py_tp_traverse, reinterpret_cast<void*>(traverse_stepper)},
+                           {0, nullptr}};  // the reader's tp_clear breaks cycles
+    nb::class_<DictionaryStepper>(module, "DictionaryStepper", nb::type_slots(slots),
                                   "Steps the first environment by dictionaries.")
         .def(nb::init<EnvPool&, DictionaryWriter&, DictionaryReader&>(), nb::arg("batch"),
-             nb::arg("writer"), nb::arg("reader"), nb::keep_alive<1, 2>(), nb::keep_alive<1, 3>(),
-             nb::keep_alive<1, 4>())
+             nb::arg("writer"), nb::arg("reader"), nb::keep_alive<1, 2>(), nb::keep_alive<1, 3>())
         .def("step", &DictionaryStepper::step, nb::arg("action").none());
 }
 

@@ -20,7 +20,7 @@ namespace rddlc::python {
 
 namespace {
 
-constexpr double most_exact = 9007199254740992.0;  // 2^53: up to here an int is a double
+constexpr double least_inexact = 9007199254740992.0;  // 2^53: the next int rounds to it
 
 // A number of Python or numpy, or the one in an array of shape ().
 std::optional<double> number_of(PyObject* given) {
@@ -149,7 +149,7 @@ bool DictionaryWriter::write_array(const ActionEntry& entry, const Py_buffer& vi
 bool DictionaryWriter::store(std::size_t row, const ActionColumn& column, double value) {
     if (!(value >= column.lower && value <= column.upper)) return false;
     if (column.stored != Stored::Real &&
-        (std::abs(value) > most_exact || value != std::floor(value)))
+        (std::abs(value) >= least_inexact || value != std::floor(value)))
         return false;
     put(staged_.data() + row * size_ + column.offset, column.stored, value);
     return true;

@@ -262,12 +262,12 @@ Policy policy_of_text(const LoadedProblem& problem, const std::string& text, boo
             }};
 }
 
-// With the seed of its text, or 0.
-Policy planner(const LoadedProblem& problem, const std::string& text) {
+// A policy as `rddl evaluate --policy` takes it; planners have the seed of their text, or 0.
+Policy policy_named(const LoadedProblem& problem, const std::string& name) {
     workbench::PlannerSettings planning;
     planning.derivatives = problem.derivatives;
-    return {problem.simulator, [text, planning](const rddl_simulator& simulator) {
-                return workbench::policy_named(simulator, text, false, 0, default_memory_limit,
+    return {problem.simulator, [name, planning](const rddl_simulator& simulator) {
+                return workbench::policy_named(simulator, name, false, 0, default_memory_limit,
                                                planning);
             }};
 }
@@ -362,7 +362,7 @@ void add_learners(nb::module_& module) {
         return options_help(workbench::imitation_option_table()) + options_help(ppo_keywords());
     });
     module.def("cgp_options", [] { return options_help(cgp_keywords()); });
-    module.def("planner", planner, nb::arg("simulator"), nb::arg("text"));
+    module.def("policy_named", policy_named, nb::arg("simulator"), nb::arg("name"));
     module.def("planner_options", planner_options, nb::arg("name"));
     module.def("formula_of_text", formula_of_text, nb::arg("simulator"), nb::arg("text"));
     module.def("policy_of_file", policy_of_file, nb::arg("path"),

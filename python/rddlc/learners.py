@@ -312,8 +312,9 @@ class PPO(Learner):
     ) -> None:
         super().__init__(env_or_problem, verbose=verbose, **options)
         self._new_native({"steps": 1, **options})  # refuses options that cannot be
-        if "imitate" in options:
-            _native.planner(self.problem.simulator, str(options["imitate"]))  # refuses one that cannot act
+        if options.get("imitate"):  # "" is to imitate nothing
+            # Refuses a policy that cannot act.
+            _native.policy_named(self.problem.simulator, str(options["imitate"]))
 
     def _new_native(self, options: dict[str, Any]) -> _native.Learner:
         return _native.ppo(self.problem.simulator, options)

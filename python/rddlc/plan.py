@@ -32,7 +32,7 @@ class Planner:
         self.problem: Problem = problem_in(env_or_problem)
         self.text = ",".join([f"plan:{self.name}", *map(_option, options.items())])
         """As `rddl evaluate --policy` takes it."""
-        self._native = _native.planner(self.problem.simulator, self.text)
+        self._native = _native.policy_named(self.problem.simulator, self.text)
         self._acted_in: Any = None
 
     def act(self, observation: Any = None, env: Wrapped | None = None) -> Any:

@@ -6,6 +6,7 @@ Over 400 lines: a test for each thing that can be seen.
 from __future__ import annotations
 
 import copy
+import gc
 import importlib.util
 import multiprocessing
 import os
@@ -14,6 +15,7 @@ import tempfile
 import unittest
 import unittest.mock
 import warnings
+import weakref
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import Any
@@ -112,6 +114,18 @@ class Dictionaries(unittest.TestCase):
                 with warnings.catch_warnings():
                     warnings.simplefilter("ignore")
                     change(found)
+
+    def test_observations_that_hold_their_environment_are_collected(self) -> None:
+        for steps in range(3):
+            env = example("mountain_car")
+            observation, _ = env.reset(seed=1)
+            for _ in range(steps):
+                observation = env.step({})[0]
+            observation["env"] = env
+            alive = weakref.ref(env)
+            del env, observation
+            gc.collect()
+            self.assertIsNone(alive())
 
     def test_lifted_and_grounded_names_set_the_same_values(self) -> None:
         env = example("network")

@@ -488,11 +488,13 @@ class Verbs(unittest.TestCase):
             ({"imitate": "plan:none"}, "imitate: .*none"),
             ({"imitate": "plan:cem,step=1"}, "imitate: .*step"),
             ({"imitate": "no_such_file"}, "no_such_file"),
+            ({"imitate": "hand.rddl"}, "imitate: 'hand.rddl' holds a policy block.*imitate that trace"),
             ({"imitate": "noop", "recurrent": 4}, "recurrent"),
             ({"imitate": "noop", "imitate_episodes": 0}, "imitate_episodes"),
         ):
             with self.assertRaisesRegex(rddlc.Error, said):
                 rddlc.PPO(problem, **options)
+        rddlc.PPO(problem, imitate="")  # nothing is imitated
 
     def test_options_are_typed_as_they_are(self) -> None:
         for kind, options in ((rddlc.PPO, PPOOptions), (rddlc.CGP, CGPOptions)):

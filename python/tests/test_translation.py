@@ -6,7 +6,7 @@ import unittest
 from typing import Any
 
 import numpy as np
-from support import TEXTS, example, problem_of
+from support import TEXTS, example, problem_of, problem_of_text
 
 import rddlc
 from rddlc.versions import HAS_VECTORS
@@ -20,6 +20,22 @@ FORMS = (
 PROBLEMS = [problem_of(name) for name in TEXTS if name != "mistake"] + [
     example(name).problem for name in ("delivery", "mountain_car", "network", "reservoir", "robot")
 ]
+
+WIDE = problem_of_text("""
+domain wide {
+    pvariables {
+        n : { state-fluent, int, default = 0 };
+        set : { action-fluent, int, default = 0 };
+    };
+    cpfs { n' = set; };
+    reward = 0;
+}
+non-fluents nothing { domain = wide; }
+instance wide_1 {
+    domain = wide; non-fluents = nothing;
+    max-nondef-actions = pos-inf; horizon = 5; discount = 1.0;
+}
+""")
 
 
 class Refuser:
@@ -85,6 +101,14 @@ class NativeWriters(unittest.TestCase):
             env.step({"add___b": two})
             after.add(env.get_state())
         self.assertEqual(len(after), 1)
+
+    def test_ints_that_no_double_is_arrive_as_they_are(self) -> None:
+        for env in (rddlc.make(WIDE), rddlc.make(WIDE, vectorized=True)):
+            for number in (2**53 - 1, 2**53, 2**53 + 1, -(2**53) - 1, 2**62 + 1):
+                for form in (int, np.int64, np.array, lambda n: np.array([n])):
+                    env.reset(seed=1)
+                    observation = env.step({"set": form(number)})[0]
+                    self.assertEqual(int(np.squeeze(observation["n"])), number)
 
     def test_the_rest_is_left_to_python(self) -> None:
         env = rddlc.make(problem_of("counters_two"))

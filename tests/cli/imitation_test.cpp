@@ -66,6 +66,11 @@ TEST_F(Imitation, IsRefusedWhereItCannotBe) {
     expect_part(recurrent.err, "--imitate goes neither with --recurrent nor with several ranks");
     EXPECT_EQ(run("train ppo p.rddl --imitate plan:none").status, 2);
     EXPECT_EQ(run(fmt::format("train ppo p.rddl --imitate nothing{}", few)).status, 2);
+    // The hint names no option that this command lacks.
+    const Outcome block = run(fmt::format("train ppo p.rddl --imitate hand.rddl{}", few));
+    EXPECT_EQ(block.status, 2);
+    expect_part(block.err, "--policy hand.rddl --trace episodes.jsonl");
+    EXPECT_EQ(block.err.find("--policy-block"), std::string::npos) << block.err;
 }
 
 TEST_F(Imitation, LearnersOfFormulasWarnAsWell) {

@@ -212,8 +212,8 @@ TEST_F(PolicyFiles, OfPpoWithWrongNumbersAreRefused) {
     refuses_numbers("/version", "version ");
     refuses_numbers("/observation/stack", "its stack is ");
     refuses_numbers("/noise_steps", "its number of steps with the same noise is ");
-    refuses_value("/version", "5", "it is of version 5, and this program reads versions up to 4");
-    refuses_value("/version", "1.7", "its version is 1.7, not an int from 1 to 4");
+    refuses_value("/version", "6", "it is of version 6, and this program reads versions up to 5");
+    refuses_value("/version", "1.7", "its version is 1.7, not an int from 1 to 5");
     for (const char* const units : {"-1", "0", "64.5", "2147483647", "1e400", "\"8\"", "null"})
         for (const char* const pointer : {"/hidden/0", "/recurrent/units"})
             refuses_value(pointer, units,

@@ -37,7 +37,7 @@ from rddl_problem import Problem
 from reduce import reduce
 
 FLAVOURS = ("plain", "random", "wild", "finite", "wild")  # by seed
-ONE_IN = 20  # problems that pass through all stages, printing and emitting included
+ONE_IN = 5  # problems that pass through all stages, printing and emitting included
 BATCHES = {"passes": 100, "compiled": 12, "reference": 10}
 OUTCOMES = "accepted", "too large", "contradictory", "rejected", "crashed"
 KEPT = 3  # failures of one kind that are reduced

@@ -68,6 +68,28 @@ class Page(PageTest):
         window.edit(0, "FUEL-COSTS", "FUEL-COST")
         window.wait("document.querySelector('#problems-title').textContent === 'No problems'")
 
+    def test_edits_of_a_text_that_has_changed_are_dropped(self):
+        """Keys that are typed while the server is asked move the places of its edits."""
+        for method, act in (("formatting", lambda window: window.click("#format")),
+                            ("codeAction", lambda window: window.press(".", 190, CTRL))):
+            window = self.open()
+            window.edit(0, "FUEL-COST   :", "FUEL-COSTS     :")
+            window.wait("document.querySelectorAll('#problems li.error').length")
+            window.click("#problems li .place")
+            if method == "formatting":  # takes a text without errors
+                window.edit(0, "FUEL-COSTS", "FUEL-COST")
+                window.wait("document.querySelector('#problems-title').textContent === 'No problems'")
+            window.evaluate("(() => { const quick = window.fetch; const gate = new Promise((go) => { window.open_gate = go; });"
+                            f"window.fetch = async (...words) => {{ if (String(words[1]?.body).includes('textDocument/{method}')) {{"
+                            "window.is_asked = true; await gate; } return quick(...words); }; })()")
+            act(window)
+            window.wait("window.is_asked")
+            window.edit(0, "domain mountain_car", "// typed\ndomain mountain_car")
+            typed = window.evaluate("document.querySelector('textarea').value")
+            window.evaluate("window.open_gate()")
+            window.wait("document.querySelector('#edit-message').textContent === 'the text has changed: try again'")
+            self.assertEqual(window.evaluate("document.querySelector('textarea').value"), typed)
+
     def test_renamed_domain(self):
         """Both texts are one problem, whatever names they give."""
         window = self.open()

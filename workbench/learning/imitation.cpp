@@ -3,6 +3,8 @@
 #include "learning/learned_policy.hpp"
 #include "planners/planner/planner_policy.hpp"
 
+#include <fmt/format.h>
+
 namespace rddlc::workbench {
 
 namespace {
@@ -10,9 +12,21 @@ namespace {
 constexpr std::uint64_t seed_of_episodes = 0x696D6974;  // not that of evaluations
 constexpr std::int64_t horizon_without_one = 1000;
 
+// Learners load problems without a policy block of another file.
+void refuse_block_file(const std::string& name) {
+    if (!is_block_file(name)) return;
+    throw Failure(fmt::format(
+        "'{0}' holds a policy block, which learners do not load: record its episodes by "
+        "'rddl run ... --policy {0} --trace episodes.jsonl', and imitate that trace",
+        name));
+}
+
 void set_policy(Imitation& imitation, const std::string& name) {
     try {
-        if (planners::is_planner(name)) planners::require_planner(name);
+        if (planners::is_planner(name))
+            planners::require_planner(name);
+        else
+            refuse_block_file(name);
     } catch (const Failure& failure) {
         throw solvers::OptionRefused(failure.what());
     }

@@ -189,7 +189,8 @@ solvers::Policy policy_named(const rddl_simulator& simulator, const std::string&
     if (name == "rddl") {
         if (!simulator.policy)
             throw Failure("there is no policy block in the files of the problem",
-                          "name the file that has it: --policy-block=FILE.rddl");
+                          "write it into one of them; commands that have --policy-block also take "
+                          "a file of its own");
         return solvers::block_policy(simulator);
     }
     if (!is_there(name))
@@ -201,7 +202,8 @@ solvers::Policy policy_named(const rddl_simulator& simulator, const std::string&
         throw Failure(fmt::format("'{}' holds a policy block, with which the problem has to be "
                                   "loaded",
                                   name),
-                      "load it by --policy-block, and name the policy 'rddl'", usage_error);
+                      "commands that have --policy-block load it: name the policy 'rddl' there",
+                      usage_error);
     return learned_policy(simulator, name, random, seed, memory_limit);
 }
 

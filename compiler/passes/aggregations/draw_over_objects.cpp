@@ -1,5 +1,6 @@
 #include "passes/aggregations/draw_over_objects.hpp"
 
+#include "ir/cost_model.hpp"
 #include "ir/fill_table.hpp"
 #include "ir/rewrite.hpp"
 
@@ -158,7 +159,7 @@ class DrawsOverObjects {
             const ir::NodeId part = ir::replace_in(builder_, reduce.body, renamed);
             const ir::Properties& properties = builder_.properties(part);
             if (std::ranges::find(inside, part) == inside.end() || !ir::is_droppable(properties) ||
-                properties.cost < worth_a_table)
+                properties.cost < worth_a_table || elements_of(part) > ir::most_new_elements)
                 continue;
             const ir::BufferId table = table_of(part, before);
             const auto element_for = [&](ir::VariableId variable) {
@@ -187,6 +188,13 @@ class DrawsOverObjects {
         for (const ir::VariableId variable : builder_.properties(part).free_variables)
             if (variable != object_) variables.push_back(variable);
         return variables;
+    }
+
+    double elements_of(ir::NodeId part) const {
+        double elements = 1;
+        for (const ir::VariableId variable : dimensions_of(part))
+            elements *= static_cast<double>(program_[variable].size);
+        return elements;
     }
 
     ir::BufferId table_of(ir::NodeId part, ir::Block& before) {

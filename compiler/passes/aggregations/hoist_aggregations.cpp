@@ -1,6 +1,7 @@
 #include "passes/aggregations/hoist_aggregations.hpp"
 
 #include "ir/call.hpp"
+#include "ir/cost_model.hpp"
 #include "ir/fill_table.hpp"
 #include "ir/rewrite.hpp"
 #include "support/match.hpp"
@@ -20,7 +21,6 @@ constexpr double worth_hoisting = 8;
 constexpr double cost_of_element = 2;
 // The work must shrink to less than this part, since branches may skip some of it.
 constexpr double worthwhile = 0.5;
-constexpr double most_hoisted_elements = 1e6;
 
 using Variables = std::vector<ir::VariableId>;
 
@@ -117,7 +117,7 @@ class Hoisting {
         const double evaluations = product_of_sizes(around);
         const double hoisted =
             entries * (properties.cost + cost_of_element) + evaluations * cost_of_element;
-        return entries <= most_hoisted_elements &&
+        return entries <= ir::most_new_elements &&
                hoisted < worthwhile * evaluations * properties.cost && is_known_before(id);
     }
 

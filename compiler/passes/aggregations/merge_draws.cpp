@@ -120,10 +120,11 @@ struct Drawn {
     std::optional<ir::NodeId> otherwise;
 };
 
-// Where a draw is merged, conditions are evaluated once more, for its parameters, unless they are
-// dear enough for a name.
+// A merged draw evaluates its conditions once more, for its parameters. Each draw that is saved
+// pays for that many operations; the number is not measured.
+constexpr double most_repeated = 4 * ir::draw_cost;
 bool may_be_repeated(const ir::Properties& condition) {
-    return condition.cost < 4 * ir::draw_cost && ir::is_droppable(condition);
+    return condition.cost < most_repeated && ir::is_droppable(condition);
 }
 
 // One of the branches may be such a value.

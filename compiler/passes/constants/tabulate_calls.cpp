@@ -34,6 +34,10 @@ class CallTabulation {
         for (const ir::Definition& definition : program.step)
             for (const ir::Statement& statement : definition.body)
                 steps_.push_back(step_of(statement));
+        collect_passed(program.reward.body);
+        for (const auto* conditions :
+             {&program.preconditions, &program.invariants, &program.terminations})
+            for (const ir::Computation& condition : *conditions) collect_passed(condition.body);
     }
 
     // Whether each statement of the step is fixed, and calls are among them.
@@ -76,6 +80,12 @@ class CallTabulation {
     bool is_fixed(std::size_t step) const { return steps_[step].is_fixed; }
 
   private:
+    void collect_passed(const ir::Block& block) {
+        ir::for_each_statement<ir::Call>(block, [&](const ir::Call& call) {
+            for (const ir::TableView& input : call.inputs) passed_after_.insert(input.buffer);
+        });
+    }
+
     Step step_of(const ir::Statement& statement) const {
         ir::Block block;
         block.push_back(statement);
@@ -124,11 +134,13 @@ class CallTabulation {
     }
     // Calls that stay need the table where it is.
     bool is_passed_to_others(const Step& filling) const {
-        return std::ranges::any_of(steps_, [&](const Step& step) {
-            return !step.is_fixed && std::ranges::any_of(step.passed, [&](ir::BufferId buffer) {
-                return filling.writes.contains(buffer);
-            });
-        });
+        const auto is_filled = [&](ir::BufferId buffer) {
+            return filling.writes.contains(buffer);
+        };
+        return std::ranges::any_of(passed_after_, is_filled) ||
+               std::ranges::any_of(steps_, [&](const Step& step) {
+                   return !step.is_fixed && std::ranges::any_of(step.passed, is_filled);
+               });
     }
 
     double cost_of(const ir::Statement& statement) const {
@@ -164,6 +176,7 @@ class CallTabulation {
     const ir::Program& program_;
     std::vector<ir::Properties> properties_;
     std::vector<Step> steps_;
+    std::set<ir::BufferId> passed_after_;  // to functions of the reward and of conditions
 };
 
 // A definition may be left with tables of others.

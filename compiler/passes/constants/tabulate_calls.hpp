@@ -1,4 +1,4 @@
-// Functions of whole tables are called now, if the instance fixes what they are given.
+// The step's functions of whole tables are called now, if the instance fixes what they are given.
 //
 //     for r in axis                                        next.x = x + FACTOR[0, 1]
 //         for c in axis
@@ -6,8 +6,9 @@
 //     fill scratch.factor = cholesky(scratch.matrix)
 //     next.x = x + scratch.factor[0, 1]
 //
-// By the evaluator, with the runtime's own functions, so the values are the same. If one of them
-// faults, all calls stay. Without calls, packs of environments can be stepped.
+// The evaluator calls the runtime's own functions, in doubles. If one of them faults, all calls
+// stay, as do those of the reward and of conditions. Without calls, packs of environments can be
+// stepped.
 #pragma once
 
 #include "ir/ir.hpp"

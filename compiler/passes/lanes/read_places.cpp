@@ -61,8 +61,8 @@ class PlaceReading {
             program_,
             [&](ir::NodeId id) -> const ir::Properties& { return builder_.properties(id); }, nest_,
             [&](ir::NodeId id) { return is_chosen(id) || is_known(id); });
-        const bool is_possible =
-            several.are_enough(ir::Scalar::Bool) && several.can_store(changed) && !looks_up_bools(value);
+        const bool is_possible = several.are_enough(ir::Scalar::Bool) &&
+                                 several.can_store(changed) && !looks_up_bools(value);
         if (!is_possible) return;
 
         by_place_.clear();

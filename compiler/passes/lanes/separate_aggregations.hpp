@@ -17,8 +17,8 @@
 //
 // So are the bools of an exists or forall.
 //
-// Nothing is computed more often than before, so aggregations in branches stay there, as do those
-// that may fault.
+// Aggregations in branches stay there, as do those that may fault, so that no term is computed more
+// often than before, except those of an exists or forall behind the first that decides.
 #pragma once
 
 #include "ir/ir.hpp"

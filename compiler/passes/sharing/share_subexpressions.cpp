@@ -1,6 +1,7 @@
 #include "passes/sharing/share_subexpressions.hpp"
 
 #include "ir/call.hpp"
+#include "ir/cost_model.hpp"
 #include "ir/rewrite.hpp"
 #include "support/match.hpp"
 
@@ -132,21 +133,18 @@ class Sharing {
     }
 
     double repetitions_of(const ir::Node& node, ir::NodeId operand) const {
-        return is_body(node, operand) ? size_of(*ir::bound_variable(node)) : 1;
+        return is_body(node, operand) ? ir::repetitions(program_, node) : 1;
     }
 
     // How often loops right inside each other run the innermost statement.
     double repetitions_of(const ir::Statement& statement) const {
         const auto* loop = std::get_if<ir::Loop>(&statement.form);
         if (!loop || loop->body.empty()) return 1;
-        return size_of(loop->variable) * repetitions_of(loop->body.front());
+        return static_cast<double>(program_[loop->variable].size) *
+               repetitions_of(loop->body.front());
     }
 
-    double size_of(ir::VariableId variable) const {
-        return static_cast<double>(program_[variable].size);
-    }
-
-    // Whether a Let may compute what not each evaluation needs: it costs no more than the loop,
+    // A Let may compute this though no evaluation needs it: it costs no more than the loop around,
     // which computes something each time.
     bool may_be_in_vain(ir::NodeId id, const Use& use) const {
         const ir::Properties& properties = builder_.properties(id);

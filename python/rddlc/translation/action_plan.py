@@ -142,7 +142,7 @@ def plan_of(problem: Problem) -> ActionPlan:
         raise ActionError("the problem has no action-fluents: there is nothing to choose")
     limit = problem.model.limited_actions
     if limit is not None and limit > 0:
-        return _plan_of_picks(columns, defaults, is_category, limit)
+        return _plan_of_sub_actions(columns, defaults, is_category, limit)
     return _plan_of_values(columns, defaults, is_category)
 
 
@@ -162,7 +162,7 @@ def _plan_of_values(
     )
 
 
-def _plan_of_picks(
+def _plan_of_sub_actions(
     columns: Sequence[Column], defaults: Array, is_category: Sequence[bool], limit: int
 ) -> ActionPlan:
     changes: list[tuple[int, float]] = []

@@ -84,7 +84,7 @@ class _Sampler:
 
     def _legal_action(self, number: int) -> Any:
         if self._policy is None:
-            self._policy = _native.planner(self._problem.simulator, "random")
+            self._policy = _native.policy_named(self._problem.simulator, "random")
         self._policy.draw(self._batch, number, self._records)
         rows = self._writer.actions_of(self._records)
         if not isinstance(self._space, spaces.Dict):

@@ -23,8 +23,8 @@ inline InstructionSet processor_instruction_set() {
     return has_avx512 ? InstructionSet::Avx512 : InstructionSet::Avx2;
 }
 
-// Whether it also has what processors with AVX-512 have gained since 2019: permutations of the bytes
-// of a register, and counts of bits.
+// Whether it also has what processors with AVX-512 have gained since 2019: permutations of the
+// bytes of a register, and counts of bits.
 inline bool processor_permutes_bytes() {
     __builtin_cpu_init();
     return __builtin_cpu_supports("avx512vbmi") && __builtin_cpu_supports("avx512vpopcntdq");

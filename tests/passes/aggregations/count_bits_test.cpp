@@ -77,12 +77,12 @@ TEST(CountBits, TakesSeveralWords) {
         "bit_and(bit_xor(bits(state.many, 64), -1), 131071)) != 0)");
 }
 
-// These terms are not the same element of all tables, not known before or not of bools, or counted
-// twice.
 TEST(CountBits, LeavesTablesSoSmallThatTheirBitsCostMoreThanTheySave) {
     EXPECT_EQ(counted_in_bits("sum_{?o : obj} [p(?o)]"), "sum[o in obj](int(state.p[o]))");
 }
 
+// These terms are not the same element of all tables, not known before or not of bools, or counted
+// twice.
 TEST(CountBits, LeavesOtherAggregations) {
     for (const char* cpf :
          {"sum_{?o : obj, ?u : obj} [p(?o) ^ s(?o, ?u)]",

@@ -168,7 +168,7 @@ function problemItem({ document, diagnostic }) {
     if (!own) return;
     fix.textContent = own.title;
     fix.hidden = false;
-    fix.addEventListener("click", () => applyTo(document, version, own));
+    fix.addEventListener("click", () => applyTo(document, version, own.edit.changes));
   }).catch(() => {});
   return item;
 }
@@ -179,9 +179,10 @@ function goTo(document, position) {
   moved(document);
 }
 
-// A fix is one of the text that it was made for. If the text has changed, another one is on its way.
-function applyTo(document, version, fix) {
-  if (document.version === version) apply(fix.edit.changes);
+// Edits are those of the text that they were made for.
+function applyTo(document, version, changes) {
+  if (document.version === version) apply(changes);
+  else tell("the text has changed: try again");
 }
 
 const fixesAt = async (document, range) => (await request(document, "codeAction", { range, context: { diagnostics: [] } })) ?? [];
@@ -212,7 +213,7 @@ async function repairHere() {
   const document = documents[current];
   const position = document.editor.position(), { version } = document;
   const fix = (await fixesAt(document, { start: position, end: position })).find(({ kind }) => kind === "quickfix");
-  if (fix) applyTo(document, version, fix);
+  if (fix) applyTo(document, version, fix.edit.changes);
   else tell("no problem here has a certain repair");
 }
 
@@ -330,9 +331,9 @@ function download() {
 }
 
 async function format() {
-  const document = documents[current];
+  const document = documents[current], { version } = document;
   const edits = await request(document, "formatting", { options: { tabSize: 4, insertSpaces: true } });
-  if (edits?.length) apply({ [document.uri]: edits });
+  if (edits?.length) applyTo(document, version, { [document.uri]: edits });
   else tell(document.diagnostics.length ? "a text with errors stays as it is" : "it is in this form already");
 }
 
