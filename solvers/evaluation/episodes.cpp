@@ -334,8 +334,8 @@ int thread_count(int wanted) {
     return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
 }
 
-// Enough environments to amortise a call, few enough to give every thread work and, with a trace,
-// to keep the lines that wait for their turn small.
+// Enough environments to amortise a call, and few enough to give every thread work. One by one they
+// are with a trace, so that few lines wait for their turn, and where a batch makes no call cheaper.
 std::int64_t batch_size(const EpisodeOptions& options, const rddl_simulator& simulator, int threads,
                         bool one_by_one) {
     const std::int64_t bytes = bytes_per_environment(simulator) * threads;

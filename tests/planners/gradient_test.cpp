@@ -185,7 +185,7 @@ TEST(Gradient, EndsADecisionOfALongPlanInTime) {
     const auto begin = std::chrono::steady_clock::now();
     planner.decide({batch.get(), 0, 0, 0, 100, 100}, action.data(), nullptr);
     const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
-    EXPECT_LT(took.count(), 1.5);
+    EXPECT_LT(took.count(), 1.5);  // a busy machine sleeps longer
 }
 
 // Where memory is short there are fewer plans, and as many in any batch.

@@ -118,7 +118,7 @@ TEST(PlannerBudgets, SameStepsGiveTheSameActionsOnAnyNumberOfThreads) {
         }
 }
 
-// What is kept of an episode is forgotten at the same decisions in any batch.
+// Trees and the states that are known are forgotten at the same decisions in any batch.
 TEST(PlannerBudgets, ShortMemoryGivesTheSameActionsInAnyBatch) {
     for (const std::int64_t limit : {1 << 18, 1 << 20, 1 << 22}) {
         SCOPED_TRACE(limit);
