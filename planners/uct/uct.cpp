@@ -32,7 +32,7 @@ constexpr double least_tried = 0.2;
 // The parts of the memory limit that the memory of an episode may have in a decision, and after it.
 // They depend neither on threads nor on the batch, so that decisions do not either.
 constexpr std::size_t decision_share = 16;
-constexpr std::size_t kept_share = 256;
+constexpr std::size_t kept_share = 64;
 
 FiniteActions finite_actions(const rddl_simulator& simulator, int most) {
     const solvers::ActionSpace space = solvers::action_space(simulator);
@@ -177,14 +177,6 @@ bool Uct::open_root(const DecisionPoint& point, RandomStream& stream, BudgetMete
     // leaves that are looked at more shortly.
     if (least_ == most_) memory_->leaf_depth = short_leaf;
     return true;
-}
-
-// A decision before may have had no budget left for it.
-void Uct::confirm_root(const DecisionPoint& point, RandomStream& stream, BudgetMeter& meter) {
-    if (!is_determinised() || tree().node(root_).is_locked) return;
-    new_nodes_.assign(1, root_);
-    determinised_states_.assign(1, memory_->determinised.state_of(tree().state(root_)));
-    lock_where_it_stays(point, 0, stream, meter);
 }
 
 // As deep as can be done often in the budget.
@@ -391,6 +383,7 @@ EdgeId Uct::search(const DecisionPoint& point, RandomStream& stream, BudgetMeter
 // Keeps what the next decision may use, if it is small enough.
 void Uct::keep_below(EdgeId edge) {
     tree().keep_below(edge);
+    if (memory_->bytes() <= most_kept_bytes_) return;
     if (tree().bytes() > most_kept_bytes_ / 2) tree().clear();
     if (memory_->determinised.bytes() > most_kept_bytes_ / 2) memory_->determinised.clear();
 }
