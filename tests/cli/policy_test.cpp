@@ -125,6 +125,23 @@ TEST_F(PolicyProgram, TakesNothingButThePolicyFromItsFile) {
               without_speed(run_json(run_it + "policy.rddl")));
 }
 
+// A planner improves the block that the problem is loaded with; no file of a block is read for it.
+TEST_F(PolicyProgram, OfAPlannerIsTheBlockOfTheProblem) {
+    const std::string planner = "plan:rollout,iterations=1,policy=";
+    for (const auto& [name, option] :
+         {std::pair{"run", "--policy "}, {"evaluate", "--policy "}, {"compare", "--policies "}}) {
+        const Outcome outcome = run(
+            on_tanks(name, "--episodes 1 --engine interpreter " + (option + planner)) +
+            "policy.rddl");
+        EXPECT_EQ(outcome.status, 2) << name;
+        expect_part(outcome.err, "'policy.rddl' holds a policy block");
+        expect_part(outcome.err, "write the block into one of the problem's files");
+    }
+    const Outcome works = run(on_tanks("evaluate", "--episodes 1 --engine interpreter") +
+                              " --policy-block policy.rddl --policy " + planner + "rddl");
+    EXPECT_EQ(works.status, 0) << works.err;
+}
+
 TEST_F(PolicyProgram, SaysWhatIsMissing) {
     const std::string run_it = on_tanks("run", "--engine interpreter --policy ");
     const Outcome none = run(run_it + "rddl");
