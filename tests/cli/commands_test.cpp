@@ -484,6 +484,16 @@ TEST_F(Program, EndsWithStatus1IfEveryEpisodeFaulted) {
             .err.starts_with("rddl: error: the only episode faulted; the first fault: episode 0"));
 }
 
+TEST_F(Program, EvaluatesWithTheReasonOfTheFirstFault) {
+    write_file(folder_ / "faulty.rddl", faulty_problem("1.0"));
+    const Outcome outcome = run("evaluate faulty.rddl --episodes 5" + std::string(interpreted));
+    EXPECT_EQ(outcome.status, 0);
+    expect_part(outcome.err, "faults ended 5 of 5 episodes of 'random'");
+    expect_part(outcome.err,
+                "  the first fault: episode 0, step 1: faulty.rddl:2:17: "
+                "Bernoulli's probability must be in [0, 1], found 1.5\n");
+}
+
 TEST_F(Program, TellsHowManyEpisodesFaulted) {
     write_file(folder_ / "faulty.rddl", faulty_problem("0.5"));
     const Outcome some = run(std::string("run faulty.rddl --episodes 40 --quiet") + interpreted);

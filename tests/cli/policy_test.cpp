@@ -68,8 +68,9 @@ TEST_F(PolicyProgram, EvaluatesFilesSideBySide) {
 
     write_file(folder_ / "greedy.rddl", "policy greedy { cpfs { pump(?t) = true; power = @high; "
                                         "extra = 0.0; }; }");
-    expect_part(run(on_tanks("compare", "--policies noop,greedy.rddl" + settings)).err,
-                "faults ended 40 of 40 episodes of 'greedy.rddl'");
+    const Outcome greedy = run(on_tanks("compare", "--policies noop,greedy.rddl" + settings));
+    expect_part(greedy.err, "faults ended 40 of 40 episodes of 'greedy.rddl'");
+    expect_part(greedy.err, "  the first fault: episode 0, step 0: ");
 
     write_file(folder_ / "wrong.rddl", "policy wrong { cpfs { pumps(?t) = true; }; }");
     const Outcome refused = run(on_tanks("compare", "--policies noop,wrong.rddl" + settings));

@@ -9,6 +9,7 @@
 #include "learning/learned_policy.hpp"
 #include "pictures/charts.hpp"
 #include "rollouts/evaluation.hpp"
+#include "rollouts/rollouts.hpp"
 #include "support/json_text.hpp"
 #include "support/program.hpp"
 #include "terminal/interrupt.hpp"
@@ -152,13 +153,13 @@ void hint_at_chance(const Evaluation& one) {
             one.policy, number_text(*learned));
 }
 
-// Says where a return may be high only because episodes ended early.
+// Says where a return may be high only because episodes ended early, and why they did.
 void note_faults(const Evaluation& one) {
     const solvers::Summary& s = one.summary;
-    if (s.faulted > 0)
-        tell(
-            "rddl: note: faults ended {} of {} episodes of '{}', so its return is of fewer steps\n",
-            grouped(s.faulted), grouped(s.episodes), one.policy);
+    if (s.faulted == 0) return;
+    tell("rddl: note: faults ended {} of {} episodes of '{}', so its return is of fewer steps\n",
+         grouped(s.faulted), grouped(s.episodes), one.policy);
+    if (one.first_fault) tell("  the first fault: {}\n", fault_line(*one.first_fault));
 }
 
 // The optimum of the horizon in which policies are evaluated.
