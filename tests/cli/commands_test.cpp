@@ -586,6 +586,22 @@ TEST_F(Program, EndsCleanlyWhenInterrupted) {
     EXPECT_NE(outcome.err.find("rddl: interrupted after "), std::string::npos) << outcome.err;
 }
 
+TEST_F(Program, ShowsNoReturnWhereNoEpisodeWasFinished) {
+    const std::string evaluate =
+        "evaluate domain.rddl instance.rddl --policy plan:uct,seconds=60 --episodes 1" +
+        std::string(interpreted);
+    const std::string soon = "timeout --signal INT --preserve-status 2";
+    const Outcome table = run(evaluate, soon);
+    EXPECT_EQ(table.status, 130);
+    expect_part(table.out, "  -         -");
+    const Outcome written = run(evaluate + " --json", soon);
+    EXPECT_EQ(written.status, 130);
+    const json policy = json::parse(written.out)["policies"][0];
+    EXPECT_EQ(policy["episodes"], 0);
+    for (const char* figure : {"return", "discounted_return", "length"})
+        EXPECT_TRUE(policy[figure]["mean"].is_null()) << written.out;
+}
+
 TEST_F(Program, NeedsNoCompilerToInterpret) {
     const Outcome by_itself = run("run domain.rddl instance.rddl", "CXX=/no/such/compiler");
     EXPECT_EQ(by_itself.status, 0);

@@ -66,8 +66,9 @@ TEST_F(PolicyProgram, EvaluatesFilesSideBySide) {
     EXPECT_EQ(policies[1]["return"], policies[0]["return"]) << "it does nothing";
     EXPECT_EQ(policies[2]["return"], evaluated["policies"][0]["return"]);
 
-    write_file(folder_ / "greedy.rddl", "policy greedy { cpfs { pump(?t) = true; power = @high; "
-                                        "extra = 0.0; }; }");
+    write_file(folder_ / "greedy.rddl",
+               "policy greedy { cpfs { pump(?t) = true; power = @high; "
+               "extra = 0.0; }; }");
     const Outcome greedy = run(on_tanks("compare", "--policies noop,greedy.rddl" + settings));
     expect_part(greedy.err, "faults ended 40 of 40 episodes of 'greedy.rddl'");
     expect_part(greedy.err, "  the first fault: episode 0, step 0: ");
@@ -131,9 +132,9 @@ TEST_F(PolicyProgram, OfAPlannerIsTheBlockOfTheProblem) {
     const std::string planner = "plan:rollout,iterations=1,policy=";
     for (const auto& [name, option] :
          {std::pair{"run", "--policy "}, {"evaluate", "--policy "}, {"compare", "--policies "}}) {
-        const Outcome outcome = run(
-            on_tanks(name, "--episodes 1 --engine interpreter " + (option + planner)) +
-            "policy.rddl");
+        const Outcome outcome =
+            run(on_tanks(name, "--episodes 1 --engine interpreter " + (option + planner)) +
+                "policy.rddl");
         EXPECT_EQ(outcome.status, 2) << name;
         expect_part(outcome.err, "'policy.rddl' holds a policy block");
         expect_part(outcome.err, "write the block into one of the problem's files");
