@@ -50,7 +50,7 @@ class Training {
         begin_ = last_shown_ = last_saved_ = Clock::now();
         if (options_.ranks.is_first())
             baselines_ = baselines(simulator_, evaluation_options(), options_.stops);
-        if (!options_.resumes && trainee_.prepare) prepare();
+        if (!options_.resumes && trainee_.prepare) prepare_or_leave_nothing();
         if (owes_evaluation_) finish_update();
         bool stops = result_.reached;
         while (!stops && !trainee_.done() && update()) {
@@ -82,6 +82,16 @@ class Training {
 
   private:
     // The policy learned before the first update counts as its first policy.
+    void prepare_or_leave_nothing() {
+        try {
+            prepare();
+        } catch (...) {
+            std::error_code ignored;  // a folder that is not empty stays
+            if (made_folder_) std::filesystem::remove(options_.folder, ignored);
+            throw;
+        }
+    }
+
     void prepare() {
         const std::string said = trainee_.prepare();
         if (options_.stops && options_.stops())
@@ -114,7 +124,8 @@ class Training {
         require_one_problem();
         if (options_.ranks.is_first()) {
             // Now, so that nothing is learned that cannot be written.
-            if (!options_.resumes) std::filesystem::create_directories(options_.folder);
+            if (!options_.resumes)
+                made_folder_ = std::filesystem::create_directories(options_.folder);
             held_.hold(options_.folder);
             if (!options_.resumes && std::filesystem::exists(file("checkpoint")))
                 throw Failure(
@@ -387,7 +398,7 @@ class Training {
     const TrainingOptions& options_;
     TrainingResult result_;
     RunFolder held_;
-    bool ends_by_time_ = false, saves_ = false;
+    bool made_folder_ = false, ends_by_time_ = false, saves_ = false;
     RunLog log_;
     Clock::time_point begin_ = Clock::now(), last_shown_, last_saved_;
     double seconds_before_ = 0;  // of the runs that this one resumes

@@ -102,6 +102,15 @@ TEST_F(Bench, TakesTheNumberOfLanes) {
     EXPECT_EQ(shapes(bench["measurements"]), expected);
 }
 
+TEST_F(Bench, NotesWhereLanesHaveNoEffect) {
+    const Outcome outcome =
+        run(std::string(briefly) + "--lanes 64 --batch 64 --threads 1" + interpreted);
+    EXPECT_EQ(outcome.status, 0);
+    EXPECT_EQ(outcome.err,
+              "rddl: note: --lanes 64 has no effect: the interpreter steps one environment at a "
+              "time\n");
+}
+
 TEST_F(Bench, TellsWhenNothingWasCompiled) {
     const std::string command = std::string(briefly) + "--threads 1 --batch 4 ";
     EXPECT_EQ(run(command).status, 0);

@@ -484,6 +484,16 @@ TEST_F(Program, EndsWithStatus1IfEveryEpisodeFaulted) {
             .err.starts_with("rddl: error: the only episode faulted; the first fault: episode 0"));
 }
 
+TEST_F(Program, EvaluatesWithTheReasonOfTheFirstFault) {
+    write_file(folder_ / "faulty.rddl", faulty_problem("1.0"));
+    const Outcome outcome = run("evaluate faulty.rddl --episodes 5" + std::string(interpreted));
+    EXPECT_EQ(outcome.status, 0);
+    expect_part(outcome.err, "faults ended 5 of 5 episodes of 'random'");
+    expect_part(outcome.err,
+                "  the first fault: episode 0, step 1: faulty.rddl:2:17: "
+                "Bernoulli's probability must be in [0, 1], found 1.5\n");
+}
+
 TEST_F(Program, TellsHowManyEpisodesFaulted) {
     write_file(folder_ / "faulty.rddl", faulty_problem("0.5"));
     const Outcome some = run(std::string("run faulty.rddl --episodes 40 --quiet") + interpreted);
@@ -574,6 +584,22 @@ TEST_F(Program, EndsCleanlyWhenInterrupted) {
     EXPECT_EQ(outcome.status, 130);
     EXPECT_NE(outcome.out.find(" episodes: "), std::string::npos) << outcome.out;
     EXPECT_NE(outcome.err.find("rddl: interrupted after "), std::string::npos) << outcome.err;
+}
+
+TEST_F(Program, ShowsNoReturnWhereNoEpisodeWasFinished) {
+    const std::string evaluate =
+        "evaluate domain.rddl instance.rddl --policy plan:uct,seconds=60 --episodes 1" +
+        std::string(interpreted);
+    const std::string soon = "timeout --signal INT --preserve-status 2";
+    const Outcome table = run(evaluate, soon);
+    EXPECT_EQ(table.status, 130);
+    expect_part(table.out, "  -         -");
+    const Outcome written = run(evaluate + " --json", soon);
+    EXPECT_EQ(written.status, 130);
+    const json policy = json::parse(written.out)["policies"][0];
+    EXPECT_EQ(policy["episodes"], 0);
+    for (const char* figure : {"return", "discounted_return", "length"})
+        EXPECT_TRUE(policy[figure]["mean"].is_null()) << written.out;
 }
 
 TEST_F(Program, NeedsNoCompilerToInterpret) {

@@ -59,6 +59,15 @@ TEST_F(Imitation, OfTheOptimumReachesGoalsBehindCosts) {
     EXPECT_EQ(other.status, 0) << "a run that has begun needs no imitation: " << other.err;
 }
 
+TEST_F(Imitation, LeavesNothingWhenItIsInterrupted) {
+    const Outcome outcome =
+        run(fmt::format("train ppo p.rddl --imitate plan:uct,seconds=60 --out a{}", few),
+            "timeout --preserve-status -s INT 2");
+    EXPECT_EQ(outcome.status, 130);
+    expect_part(outcome.err, "interrupted while it was shown what to imitate");
+    EXPECT_FALSE(std::filesystem::exists(folder_ / "a"));
+}
+
 TEST_F(Imitation, IsRefusedWhereItCannotBe) {
     const Outcome recurrent = run(fmt::format(
         "train ppo p.rddl --imitate noop --recurrent 8 --rollout 8 --minibatch 8{}", interpreted));

@@ -66,10 +66,12 @@ TEST_F(PolicyProgram, EvaluatesFilesSideBySide) {
     EXPECT_EQ(policies[1]["return"], policies[0]["return"]) << "it does nothing";
     EXPECT_EQ(policies[2]["return"], evaluated["policies"][0]["return"]);
 
-    write_file(folder_ / "greedy.rddl", "policy greedy { cpfs { pump(?t) = true; power = @high; "
-                                        "extra = 0.0; }; }");
-    expect_part(run(on_tanks("compare", "--policies noop,greedy.rddl" + settings)).err,
-                "faults ended 40 of 40 episodes of 'greedy.rddl'");
+    write_file(folder_ / "greedy.rddl",
+               "policy greedy { cpfs { pump(?t) = true; power = @high; "
+               "extra = 0.0; }; }");
+    const Outcome greedy = run(on_tanks("compare", "--policies noop,greedy.rddl" + settings));
+    expect_part(greedy.err, "faults ended 40 of 40 episodes of 'greedy.rddl'");
+    expect_part(greedy.err, "  the first fault: episode 0, step 0: ");
 
     write_file(folder_ / "wrong.rddl", "policy wrong { cpfs { pumps(?t) = true; }; }");
     const Outcome refused = run(on_tanks("compare", "--policies noop,wrong.rddl" + settings));
@@ -123,6 +125,23 @@ TEST_F(PolicyProgram, TakesNothingButThePolicyFromItsFile) {
         on_tanks("run", "--engine interpreter --episodes 20 --json --policy ");
     EXPECT_EQ(without_speed(run_json(run_it + "other.rddl")),
               without_speed(run_json(run_it + "policy.rddl")));
+}
+
+// A planner improves the block that the problem is loaded with; no file of a block is read for it.
+TEST_F(PolicyProgram, OfAPlannerIsTheBlockOfTheProblem) {
+    const std::string planner = "plan:rollout,iterations=1,policy=";
+    for (const auto& [name, option] :
+         {std::pair{"run", "--policy "}, {"evaluate", "--policy "}, {"compare", "--policies "}}) {
+        const Outcome outcome =
+            run(on_tanks(name, "--episodes 1 --engine interpreter " + (option + planner)) +
+                "policy.rddl");
+        EXPECT_EQ(outcome.status, 2) << name;
+        expect_part(outcome.err, "'policy.rddl' holds a policy block");
+        expect_part(outcome.err, "write the block into one of the problem's files");
+    }
+    const Outcome works = run(on_tanks("evaluate", "--episodes 1 --engine interpreter") +
+                              " --policy-block policy.rddl --policy " + planner + "rddl");
+    EXPECT_EQ(works.status, 0) << works.err;
 }
 
 TEST_F(PolicyProgram, SaysWhatIsMissing) {

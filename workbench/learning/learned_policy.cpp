@@ -202,7 +202,8 @@ solvers::Policy policy_named(const rddl_simulator& simulator, const std::string&
         throw Failure(fmt::format("'{}' holds a policy block, with which the problem has to be "
                                   "loaded",
                                   name),
-                      "commands that have --policy-block load it: name the policy 'rddl' there",
+                      "write the block into one of the problem's files, and name the policy "
+                      "'rddl'; evaluate, compare and play also load it by --policy-block",
                       usage_error);
     return learned_policy(simulator, name, random, seed, memory_limit);
 }

@@ -17,9 +17,9 @@ std::filesystem::path policy_file(const std::filesystem::path& path);
 std::string policy_text(const std::filesystem::path& path);
 
 // "FILE.rddl" is a file with a policy block. A problem is loaded with one block, which plays as the
-// policy "rddl".
+// policy "rddl". The words of a planner may end with such a name too.
 inline bool is_block_file(const std::string& policy) {
-    return policy.ends_with(".rddl");
+    return policy.ends_with(".rddl") && !planners::is_planner(policy);
 }
 
 // A policy file of a solver, the folder of a run, whose best policy it is, or the

@@ -22,7 +22,8 @@ Evaluation evaluate(const rddl_simulator& simulator, const std::string& name,
     Progress bar(name, options.episodes * std::max<std::int64_t>(steps, 1), !quiet);
     const solvers::Watch watch{is_interrupted, [&](std::int64_t done) { bar.advance(done); }, {}};
     const solvers::Rollouts rollouts = solvers::run_episodes(simulator, policy, options, watch);
-    return {name, solvers::summary_of(rollouts), rollouts.seconds, rollouts.steps};
+    return {name, solvers::summary_of(rollouts), rollouts.seconds, rollouts.steps,
+            rollouts.first_fault};
 }
 
 std::optional<double> learned_return(const std::string& policy) {

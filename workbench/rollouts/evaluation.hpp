@@ -18,6 +18,7 @@ struct Evaluation {
     solvers::Summary summary;
     double seconds = 0;
     std::int64_t steps = 0;
+    std::optional<solvers::EpisodeFault> first_fault;
 };
 
 // Runs episodes of the policy of this name (policy_named). A learned one acts at random if `random`

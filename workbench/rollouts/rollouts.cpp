@@ -5,6 +5,8 @@
 #include "terminal/interrupt.hpp"
 #include "terminal/progress.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <memory>
 
@@ -68,6 +70,10 @@ std::string_view name_of(Policy policy) {
             break;
     }
     return "rddl";
+}
+
+std::string fault_line(const EpisodeFault& fault) {
+    return fmt::format("episode {}, step {}: {}", fault.episode, fault.step, fault.message);
 }
 
 std::string policy_name(const RolloutOptions& options) {

@@ -34,6 +34,9 @@ struct RolloutOptions : solvers::EpisodeOptions {
     PlannerSettings planning = {};
 };
 
+// "episode 3, step 7: domain.rddl:12:9: ..."
+std::string fault_line(const EpisodeFault& fault);
+
 // A planner's is its text.
 std::string policy_name(const RolloutOptions& options);
 

@@ -31,10 +31,19 @@ bool tells_of_faults(const BenchReport& report) {
     return all;
 }
 
+// Says where --lanes had no effect.
+void note_lanes(const LoadOptions& load, const BenchReport& report) {
+    if (load.lanes.value_or(1) == 1 || report.lanes > 1) return;
+    tell("rddl: note: --lanes {} has no effect: {} one environment at a time\n", *load.lanes,
+         report.engine == Engine::Interpreter ? "the interpreter steps"
+                                              : "this problem can only be stepped");
+}
+
 ExitStatus bench(const BenchOptions& options) {
     const BenchReport report =
         bench_problem(options.problem.files(), options.load, options.settings);
     options.json ? print_json(report) : print_table(report);
+    note_lanes(options.load, report);
     const bool has_failed = tells_of_faults(report);
     if (!is_interrupted()) return has_failed ? diagnosed : success;
     tell("rddl: interrupted before all was measured\n");

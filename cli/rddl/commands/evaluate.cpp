@@ -9,6 +9,7 @@
 #include "learning/learned_policy.hpp"
 #include "pictures/charts.hpp"
 #include "rollouts/evaluation.hpp"
+#include "rollouts/rollouts.hpp"
 #include "support/json_text.hpp"
 #include "support/program.hpp"
 #include "terminal/interrupt.hpp"
@@ -43,15 +44,18 @@ struct KnownOptimum {
     double below(const Evaluation& one) const { return value - one.summary.discounted_return.mean; }
 };
 
+// A figure of episodes, of which an interrupted evaluation may have none.
+std::string text_if_any(const solvers::Summary& summary, const std::string& text) {
+    return summary.episodes > 0 ? text : "-";
+}
+
 std::string interval_text(const solvers::Estimate& estimate) {
     const std::string mean = number_text(estimate.mean);
     return estimate.half_width > 0 ? fmt::format("{} ± {:.3g}", mean, estimate.half_width) : mean;
 }
 
 std::string share_text(std::int64_t part, std::int64_t all) {
-    return all == 0 ? ""
-                    : fmt::format("{:.0f} %",
-                                  100.0 * static_cast<double>(part) / static_cast<double>(all));
+    return fmt::format("{:.0f} %", 100.0 * static_cast<double>(part) / static_cast<double>(all));
 }
 
 void print_table(const rddl_problem& problem, const std::vector<Evaluation>& all,
@@ -73,14 +77,19 @@ void print_table(const rddl_problem& problem, const std::vector<Evaluation>& all
     TextTable table(columns);
     for (const Evaluation& one : all) {
         const solvers::Summary& s = one.summary;
+        const auto figure = [&s](const std::string& text) {
+            return text_if_any(s, text);
+        };
         table.add_row(
-            {one.policy, interval_text(s.undiscounted_return), interval_text(s.discounted_return),
-             number_text(s.undiscounted_return.deviation),
-             number_text(s.undiscounted_return.minimum), number_text(s.undiscounted_return.maximum),
-             number_text(s.length.mean), share_text(s.terminated, s.episodes),
-             grouped(s.illegal_actions), grouped(s.faulted),
+            {one.policy, figure(interval_text(s.undiscounted_return)),
+             figure(interval_text(s.discounted_return)),
+             figure(number_text(s.undiscounted_return.deviation)),
+             figure(number_text(s.undiscounted_return.minimum)),
+             figure(number_text(s.undiscounted_return.maximum)), figure(number_text(s.length.mean)),
+             figure(share_text(s.terminated, s.episodes)), grouped(s.illegal_actions),
+             grouped(s.faulted),
              rate_text(one.seconds > 0 ? static_cast<double>(one.steps) / one.seconds : 0),
-             optimum ? number_text(optimum->below(one)) : ""});
+             optimum ? figure(number_text(optimum->below(one))) : ""});
     }
     if (optimum)
         table.add_row(
@@ -91,12 +100,16 @@ void print_table(const rddl_problem& problem, const std::vector<Evaluation>& all
         table.text());
 }
 
-nlohmann::ordered_json to_json(const solvers::Estimate& e) {
-    return {{"mean", json_number(e.mean)},
-            {"half_width_95", json_number(e.half_width)},
-            {"std", json_number(e.deviation)},
-            {"min", json_number(e.minimum)},
-            {"max", json_number(e.maximum)}};
+// Null for each figure if there are no episodes.
+nlohmann::ordered_json to_json(const solvers::Estimate& e, std::int64_t episodes) {
+    const auto figure = [episodes](double value) {
+        return episodes > 0 ? json_number(value) : nlohmann::ordered_json();
+    };
+    return {{"mean", figure(e.mean)},
+            {"half_width_95", figure(e.half_width)},
+            {"std", figure(e.deviation)},
+            {"min", figure(e.minimum)},
+            {"max", figure(e.maximum)}};
 }
 
 void print_json(const ProblemFiles& files, const std::vector<Evaluation>& all,
@@ -106,9 +119,9 @@ void print_json(const ProblemFiles& files, const std::vector<Evaluation>& all,
         const solvers::Summary& s = one.summary;
         policies.push_back({{"policy", one.policy},
                             {"episodes", s.episodes},
-                            {"return", to_json(s.undiscounted_return)},
-                            {"discounted_return", to_json(s.discounted_return)},
-                            {"length", to_json(s.length)},
+                            {"return", to_json(s.undiscounted_return, s.episodes)},
+                            {"discounted_return", to_json(s.discounted_return, s.episodes)},
+                            {"length", to_json(s.length, s.episodes)},
                             {"terminated", s.terminated},
                             {"truncated_horizon", s.horizon},
                             {"truncated_invariant", s.invariant},
@@ -116,7 +129,9 @@ void print_json(const ProblemFiles& files, const std::vector<Evaluation>& all,
                             {"illegal_actions", s.illegal_actions},
                             {"steps", one.steps},
                             {"seconds", one.seconds}});
-        if (optimum) policies.back()["below_optimum"] = json_number(optimum->below(one));
+        if (optimum)
+            policies.back()["below_optimum"] =
+                s.episodes > 0 ? json_number(optimum->below(one)) : nlohmann::ordered_json();
     }
     nlohmann::ordered_json document{{"problem", files.name},
                                     {"episodes", options.episodes.episodes},
@@ -132,6 +147,7 @@ void draw(const rddl_problem& problem, const std::vector<Evaluation>& all,
     chart.title = fmt::format("{}: {} episodes", problem.instance, options.episodes.episodes);
     chart.x_title = "return: mean, 95 % confidence interval of it, least and greatest";
     for (const Evaluation& one : all) {
+        if (one.summary.episodes == 0) continue;  // after an interrupt
         const solvers::Estimate& e = one.summary.undiscounted_return;
         chart.rows.push_back({one.policy, e.mean, e.half_width, e.minimum, e.maximum});
     }
@@ -152,13 +168,13 @@ void hint_at_chance(const Evaluation& one) {
             one.policy, number_text(*learned));
 }
 
-// Says where a return may be high only because episodes ended early.
+// Says where a return may be high only because episodes ended early, and why they did.
 void note_faults(const Evaluation& one) {
     const solvers::Summary& s = one.summary;
-    if (s.faulted > 0)
-        tell(
-            "rddl: note: faults ended {} of {} episodes of '{}', so its return is of fewer steps\n",
-            grouped(s.faulted), grouped(s.episodes), one.policy);
+    if (s.faulted == 0) return;
+    tell("rddl: note: faults ended {} of {} episodes of '{}', so its return is of fewer steps\n",
+         grouped(s.faulted), grouped(s.episodes), one.policy);
+    if (one.first_fault) tell("  the first fault: {}\n", fault_line(*one.first_fault));
 }
 
 // The optimum of the horizon in which policies are evaluated.
@@ -229,7 +245,9 @@ ExitStatus evaluate_all(const EvaluationOptions& options) {
     explanations.finish();
     options.json ? print_json(files, all, optimum, options)
                  : print_table(*simulator.problem, all, optimum, options);
-    if (options.chart.any() && !all.empty()) draw(*simulator.problem, all, options);
+    const bool has_episodes = std::any_of(
+        all.begin(), all.end(), [](const Evaluation& one) { return one.summary.episodes > 0; });
+    if (options.chart.any() && has_episodes) draw(*simulator.problem, all, options);
     for (const Evaluation& one : all) note_faults(one);
     for (const Evaluation& one : all)
         if (!options.random && !is_interrupted()) hint_at_chance(one);

@@ -56,10 +56,6 @@ void report_illegal_action(const EpisodeViolation& first, std::int64_t count,
     tell(explainer.precondition(first.violation).diagnostic(severity, place));
 }
 
-std::string fault_line(const EpisodeFault& fault) {
-    return fmt::format("{}: {}", when(fault), fault.message);
-}
-
 bool all_faulted(const Summary& summary) {
     return summary.faulted > 0 && summary.faulted == summary.episodes;
 }

@@ -47,6 +47,18 @@ std::function<bool()> stops_of(const solvers::Ranks& ranks) {
     return is_interrupted;
 }
 
+// A Ctrl-C that leaves no run to continue is a failure too; the status tells the signal.
+solvers::TrainingResult train_unless_interrupted(const rddl_simulator& simulator,
+                                                 const solvers::Trainee& trainee,
+                                                 const solvers::TrainingOptions& training) {
+    try {
+        return solvers::train(simulator, trainee, training);
+    } catch (const Failure& failure) {
+        if (!is_interrupted()) throw;
+        throw Failure(failure.what(), failure.hint, interrupted_status());
+    }
+}
+
 ExitStatus run_training(const TrainOptions& options, const rddl_simulator& simulator,
                         const solvers::Trainee& trainee, const solvers::Ranks& ranks) {
     solvers::TrainingOptions training = options.training;
@@ -61,7 +73,7 @@ ExitStatus run_training(const TrainOptions& options, const rddl_simulator& simul
     give_up_if_interrupted("making the learner");
     if (!training.quiet && !trainee.note.empty()) tell("rddl: note: {}\n", trainee.note);
     training.folder = folder_of(options, *simulator.problem, trainee.solver.c_str());
-    const solvers::TrainingResult result = solvers::train(simulator, trainee, training);
+    const solvers::TrainingResult result = train_unless_interrupted(simulator, trainee, training);
     if (!training.quiet && result.has_best)
         print("best return {} in {} steps, after {}: {}\n", number_text(result.best_return),
               number_text(result.best_length), duration_text(result.seconds),

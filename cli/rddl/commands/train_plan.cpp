@@ -138,7 +138,9 @@ ExitStatus train_plan(const TrainPlanOptions& options) {
                                    ? fmt::format(" of {} episodes", options.episodes)
                                    : std::string());
     report(simulator, options, rollouts);
-    return is_interrupted() ? interrupted_status() : success;
+    if (!is_interrupted()) return success;
+    tell("rddl: interrupted before all was evaluated; '{}' holds the plan\n", options.out);
+    return interrupted_status();
 }
 
 }  // namespace
