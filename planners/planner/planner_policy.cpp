@@ -144,7 +144,9 @@ void require_sight(const rddl_problem& problem, const Chosen& chosen, bool cheat
     throw Failure(
         fmt::format("plan:{} needs the state, which {} ({}) hides from policies", chosen.name,
                     problem.instance, problem.domain),
-        fmt::format("let it look at the state with --cheat or plan:{},cheat=yes", chosen.name));
+        fmt::format("let it look at the state with --cheat or plan:{},cheat=yes; in Python, "
+                    "with cheat=True",
+                    chosen.name));
 }
 
 // Plans for the environments of a batch, one after the other.

@@ -39,6 +39,11 @@ double element(const void* data, std::size_t index) {
     return static_cast<double>(value);
 }
 
+// Bytes have a buffer too, but a program that gives them does not mean numbers.
+bool is_bytes(PyObject* given) {
+    return PyBytes_Check(given) || PyByteArray_Check(given) || PyMemoryView_Check(given);
+}
+
 using Element = double (*)(const void*, std::size_t);
 
 // Reads an element of a buffer of that format; null for formats that are not common.
@@ -120,7 +125,7 @@ const ActionEntry* DictionaryWriter::entry_of(PyObject* name, std::size_t guess)
 bool DictionaryWriter::write_entry(const ActionEntry& entry, PyObject* given) {
     if (const auto number = number_of(given))
         return entry.count * rows_ == 1 && store(0, columns_[entry.first], *number);
-    if (!PyObject_CheckBuffer(given)) return false;
+    if (!PyObject_CheckBuffer(given) || is_bytes(given)) return false;
     Py_buffer view{};
     if (PyObject_GetBuffer(given, &view, PyBUF_C_CONTIGUOUS | PyBUF_FORMAT) != 0) {
         PyErr_Clear();

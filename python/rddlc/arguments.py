@@ -9,8 +9,9 @@ from operator import index
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
-from .errors import ArgumentError
+from .errors import ArgumentError, Error
 
 MOST_INT64 = (1 << 63) - 1
 MOST_THREADS = 4096  # that of `rddl --threads`
@@ -69,6 +70,24 @@ def finite(name: str, given: Any) -> float:
     if not math.isfinite(number):
         raise ArgumentError(f"{name} is {shown(given)}, which is not a finite number")
     return number
+
+
+def array_in(name: str, given: Any, error: type[Error]) -> NDArray[Any]:
+    """What is an array already, or lists of the same lengths; bytes are not numbers."""
+    if isinstance(given, (bytes, bytearray, memoryview)):
+        raise error(f"{name} is {shown(given)}, which is not an array")
+    try:
+        return np.asarray(given)
+    except (TypeError, ValueError):
+        raise error(f"{name} is {shown(given)}, which is not an array") from None
+
+
+def numbers_in(name: str, given: Any, error: type[Error]) -> NDArray[Any]:
+    """An array of bools, ints or reals."""
+    array = array_in(name, given, error)
+    if array.size and array.dtype.kind not in "biuf":
+        raise error(f"{name} is {shown(given)}, which is not an array of numbers")
+    return array
 
 
 def text(name: str, given: Any) -> str:

@@ -337,8 +337,10 @@ class RDDLEnv(ProblemProperties, gymnasium.Env[Any, Any]):
     def render(self) -> Any:
         """Returns (height, width, 3) uint8, a list of these since the last render() or reset(), a text,
         or None, as `render_mode` says."""
-        if self._renderer is None or self._seed is None:
+        if self._renderer is None:
             return None
+        if self._seed is None:
+            raise EpisodeOver("no episode has begun: call reset() before render()")
         if self.render_mode == "human":
             return self._renderer.show()
         if self.render_mode == "rgb_array_list":

@@ -15,7 +15,7 @@ class LearnerOptions(TypedDict, total=False):
 
 
 class PPOOptions(LearnerOptions, total=False):
-    imitate: str | os.PathLike[str]
+    imitate: str | os.PathLike[str] | None
     imitate_episodes: int
     preset: str
     steps: int

@@ -310,11 +310,19 @@ class PPO(Learner):
     def __init__(
         self, env_or_problem: Solvable, *, verbose: int = 0, **options: Unpack[PPOOptions]
     ) -> None:
+        imitated = options.get("imitate")
+        if imitated is None:
+            options.pop("imitate", None)
+        elif not isinstance(imitated, (str, os.PathLike)):
+            raise ArgumentError(
+                f"imitate is a {type(imitated).__name__}, not a text: give the name of a policy file, or "
+                "that of a policy, as in imitate='plan:cem,steps=200' (a planner's is its `text`)"
+            )
         super().__init__(env_or_problem, verbose=verbose, **options)
         self._new_native({"steps": 1, **options})  # refuses options that cannot be
-        if options.get("imitate"):  # "" is to imitate nothing
+        if imitated:  # "" is to imitate nothing
             # Refuses a policy that cannot act.
-            _native.policy_named(self.problem.simulator, str(options["imitate"]))
+            _native.policy_named(self.problem.simulator, str(imitated))
 
     def _new_native(self, options: dict[str, Any]) -> _native.Learner:
         return _native.ppo(self.problem.simulator, options)

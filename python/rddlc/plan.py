@@ -12,7 +12,8 @@ import os
 from typing import Any, ClassVar
 
 from . import _native
-from .acting import actions_in, environment_in, problem_in
+from .acting import Environment, actions_in, environment_in, problem_in
+from .arguments import shown
 from .environment import RDDLEnv
 from .errors import ArgumentError
 from .evaluation import Evaluation, evaluation_of
@@ -37,15 +38,31 @@ class Planner:
 
     def act(self, observation: Any = None, env: Wrapped | None = None) -> Any:
         """Returns the action, as env.step takes it, for the present state of the planner's environment,
-        or of another one, also within wrappers. A planner uses the state, not the observation. Call it
-        once before each step."""
-        acting = self._env if env is None else environment_in(env)
-        if acting is None:
-            raise ArgumentError("act: the planner was made of a problem: say in which env it acts")
+        or of another one of the same problem, also within wrappers, which may stand in the first place
+        too. A planner uses the state, not the observation. Call it once before each step."""
+        acting = self._acting_env(observation, env)
         batch = acting._batch
         self._native.plan(batch, self._acted_in is not batch)
         self._acted_in = batch
         return actions_in(acting, batch.actions, is_single=isinstance(acting, RDDLEnv))
+
+    def _acting_env(self, observation: Any, env: Any) -> Environment:
+        given = observation if env is None else env
+        acting = environment_in(given)
+        if environment_in(observation) not in (None, acting):
+            raise ArgumentError("act: there are two envs: say in which one it acts")
+        if acting is None and (env is not None or _is_no_observation(given)):
+            raise ArgumentError(f"act: {shown(given)} is neither an observation nor an env of rddlc")
+        acting = self._env if acting is None else acting
+        if acting is None:
+            raise ArgumentError("act: the planner was made of a problem: say in which env it acts")
+        form = acting.problem.state_form.problem
+        if form != self.problem.state_form.problem:
+            raise ArgumentError(
+                f"act: the env is of {acting.model.instance}, and the planner of "
+                f"{self.problem.model.instance}"
+            )
+        return acting
 
     def evaluate(
         self,
@@ -61,6 +78,10 @@ class Planner:
 
     def __repr__(self) -> str:
         return f"<{self.text} of {self.problem.model.instance}>"
+
+
+def _is_no_observation(given: Any) -> bool:
+    return isinstance(given, (str, bytes, Problem)) or hasattr(given, "step")
 
 
 def _option(item: tuple[str, Any]) -> str:

@@ -388,8 +388,10 @@ class RDDLVectorEnv(ProblemProperties, VectorBase):
     def render(self) -> tuple[Any, ...] | None:
         """A picture (height, width, 3) uint8 or a text for each environment, of where it stands."""
         renderer = self._renderer
-        if renderer is None or not self._has_begun:
+        if renderer is None:
             return None
+        if not self._has_begun:
+            raise EpisodeOver("no episode has begun: call reset() before render()")
         single = _native.EnvPool(self.problem.simulator)
         single.reset()
         pictures = []

@@ -494,7 +494,11 @@ class Verbs(unittest.TestCase):
         ):
             with self.assertRaisesRegex(rddlc.Error, said):
                 rddlc.PPO(problem, **options)
-        rddlc.PPO(problem, imitate="")  # nothing is imitated
+        for given in (rddlc.plan.UCT(problem), rddlc.PPO(problem), 3, b"noop"):
+            with self.subTest(given=given), self.assertRaisesRegex(rddlc.ArgumentError, "imitate is .*not a text"):
+                rddlc.PPO(problem, imitate=given)
+        for nothing in ("", None):
+            rddlc.PPO(problem, imitate=nothing)
 
     def test_options_are_typed_as_they_are(self) -> None:
         for kind, options in ((rddlc.PPO, PPOOptions), (rddlc.CGP, CGPOptions)):

@@ -204,7 +204,8 @@ class Attributes(unittest.TestCase):
     def test_pictures(self) -> None:
         envs = vector("mountain_car", render_mode="rgb_array", render_size=(60, 40))
         self.assertEqual(envs.render_mode, "rgb_array")
-        self.assertIsNone(envs.render())
+        with self.assertRaisesRegex(rddlc.EpisodeOver, r"reset\(\) before render"):
+            envs.render()
         envs.reset(seed=1)
         start = envs.render()
         steps(envs, 30)

@@ -91,6 +91,9 @@ class Refusals(unittest.TestCase):
                 (lambda: env.reset(seed=2, options={"state": other.get_state()}), rddlc.Error, "bytes, not"),
                 (lambda: env.step({"throttle": 10**400}), rddlc.ActionError, "throttle"),
                 (lambda: env.step({"throttle": 1j}), rddlc.ActionError, "throttle"),
+                (lambda: env.step({"throttle": b"\x01"}), rddlc.ActionError, "throttle"),
+                (lambda: env.step({"throttle": bytearray(b"\x01")}), rddlc.ActionError, "throttle"),
+                (lambda: env.step({"throttle": memoryview(b"\x01")}), rddlc.ActionError, "throttle"),
                 (lambda: env.step({1: 2}), rddlc.ActionError, "no action '1'"),
             ]
         )
@@ -107,6 +110,9 @@ class Refusals(unittest.TestCase):
         self.check(
             [
                 (lambda: envs.step(two), rddlc.ActionError, "throttle"),
+                (lambda: envs.step(b"\x01"), rddlc.ActionError, "not an array"),
+                (lambda: envs.step({"throttle": 0.5}), rddlc.ActionError, "not an array of numbers"),
+                (lambda: envs.step([[1], [1, 2], [1], [1]]), rddlc.ActionError, "not an array"),
                 (lambda: envs.step(np.full_like(two, np.nan)), rddlc.ActionError, "throttle"),
                 (lambda: envs.step(two[:3]), rddlc.ActionError, "shape"),
                 (lambda: envs.step("abcd"), Exception, ""),
@@ -124,6 +130,18 @@ class Refusals(unittest.TestCase):
             ]
         )
         self.assertEqual([envs._batch.progress(place) for place in range(4)], before)
+
+    def test_of_arrays_by_name(self) -> None:
+        single = example("network")
+        envs = rddlc.make_vec(single.problem, num_envs=2, actions="dict")
+        computers = envs.action_space["reboot"].shape[1]
+        for env in (single, envs):
+            env.reset(seed=1)
+            size = computers if env is single else 2 * computers
+            refused = [bytes(size), bytearray(size), memoryview(bytes(size)), [True, [1]], [None] * size, {1}]
+            self.check(
+                [(partial(env.step, {"reboot": each}), rddlc.ActionError, "reboot") for each in refused]
+            )
 
     def test_of_discrete_actions(self) -> None:
         env = example("network", actions="simplified")

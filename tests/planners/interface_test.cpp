@@ -202,7 +202,9 @@ TEST(PlannerSight, OfHiddenStatesHasToBeAllowed) {
     } catch (const Failure& failure) {
         EXPECT_EQ(std::string(failure.what()),
                   "plan:cem needs the state, which t_maze_1 (t_maze) hides from policies");
-        EXPECT_EQ(failure.hint, "let it look at the state with --cheat or plan:cem,cheat=yes");
+        EXPECT_EQ(failure.hint,
+                  "let it look at the state with --cheat or plan:cem,cheat=yes; in Python, with "
+                  "cheat=True");
     }
     PolicySettings settings = settings_of(maze());
     settings.cheat = true;

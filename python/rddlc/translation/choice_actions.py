@@ -10,6 +10,7 @@ from gymnasium import spaces
 from numpy.typing import NDArray
 
 from .. import _native
+from ..arguments import numbers_in
 from ..errors import ActionError
 from ..problems import Problem
 from ..records import records_of, values_of
@@ -180,7 +181,7 @@ class ChoiceActions:
 
 
 def _matrix(given: Any, rows: int, columns: int, what: str) -> Array:
-    array = np.asarray(given)
+    array = numbers_in("an action", given, ActionError)
     if array.size != rows * columns:
         shape = array.shape if rows == 1 else array.shape[1:]
         raise ActionError(f"an action has {columns} {what}, not the shape {shape}")

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .. import _native
+from ..arguments import numbers_in
 from ..errors import ActionError
 from ..model import Model
 from ..problems import Problem
@@ -155,7 +156,7 @@ class LiftedActions(DictionaryActions):
         if name not in self._views:
             raise ActionError(f"there is no action '{name}'; there are {', '.join(self._views)}")
         view, box = self._views[name], self.space[name]
-        array = np.asarray(value)
+        array = numbers_in(f"action '{name}'", value, ActionError)
         if array.size != view.size:
             raise ActionError(f"action '{name}' has the shape {view.shape}, not {array.shape}")
         array = array.reshape(view.shape)

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from ..arguments import whole
+from ..arguments import array_in, whole
 from ..errors import ArgumentError, Error
 from ..model import Fluent
 from ..problems import Problem
@@ -55,7 +55,7 @@ class NamedValues:
                 f"{', ...' if len(self._place) > 8 else ''}"
             )
         begin, fluent = self._lifted[name]
-        array = np.asarray(value)
+        array = array_in(f"{self._what} '{name}'", value, self._error)
         if array.shape != fluent.shape:
             raise self._error(
                 f"{self._what} '{name}' has the shape {fluent.shape}, not {array.shape}"
