@@ -19,9 +19,11 @@ constexpr std::int64_t default_horizon = 40;
 // allowed for one.
 constexpr std::array thresholds{0.5, 0.2};
 
-// A plan of several steps waits so many seconds for its comparison with no-op, also when its time
-// is over: it may be worse.
+// A plan of several steps waits so many seconds for its comparison with no-op, also after Ctrl-C:
+// it may be worse.
 constexpr double comparison_patience = 5;
+// Steps by which the time of the first comparison is estimated.
+constexpr std::int64_t timed_steps = 4;
 
 std::size_t scenarios_of(const rddl_problem& problem, const GradientOptions& options) {
     return static_cast<std::size_t>(options.scenarios.value_or(problem.stochastic ? 4 : 1));
@@ -158,6 +160,10 @@ void Gradient::search(const DecisionPoint& point, Memory& memory, RandomStream& 
     memory.is_improved = false;
     const std::int64_t depth = std::min(horizon_, point.left);
     find_candidates(memory);
+    if (comparison_seconds_ == 0 && meter.has_clock()) {
+        time_comparison(point, memory, depth, stream, meter);
+        find_candidates(memory);
+    }
     ascend(point, memory, stream, meter);
     std::int64_t compared = 0;
     const std::int64_t affordable = std::min(depth, meter.steps_left() / futures_.count());
@@ -176,6 +182,15 @@ void Gradient::search(const DecisionPoint& point, Memory& memory, RandomStream& 
                     memory.plans.begin() + static_cast<std::ptrdiff_t>(best.plan) + 1);
     memory.choice = best;
     memory.choice.plan = 0;
+}
+
+// The time of the first comparison is not known yet: its first steps tell.
+void Gradient::time_comparison(const DecisionPoint& point, const Memory& memory, std::int64_t depth,
+                               RandomStream& stream, BudgetMeter& meter) {
+    const std::int64_t steps = std::min(timed_steps, depth);
+    if (!meter.has_room(2 * futures_.count() * depth, 0)) return;
+    compare(point, memory, steps, stream, meter);
+    comparison_seconds_ *= static_cast<double>(depth) / static_cast<double>(steps);
 }
 
 // Leaves room for the comparison.
@@ -257,8 +272,12 @@ std::int64_t Gradient::compare(const DecisionPoint& point, const Memory& memory,
     futures_.begin(point.batch, point.place, streams_);
     if (base_) base_->begin(point.episode, point.step, point.horizon, streams_);
     std::int64_t t = 0;
+    const auto gives_up = [&] {
+        return solvers::is_stopped(point.stops) ? meter.seconds() - before >= patience
+                                                : meter.is_late();
+    };
     for (; t < depth && futures_.any_running(); ++t) {
-        if (t > 0 && t % 4 == 0 && meter.is_late() && meter.seconds() - before >= patience) break;
+        if (t > 0 && t % 4 == 0 && gives_up()) break;
         write_rows(memory, t);
         for (std::size_t k = 0; k < lanes; ++k)
             records_.write(rows_.data() + k * columns, actions_.data() + k * size);

@@ -57,6 +57,8 @@ class Gradient : public Planner {
     void ascend(const DecisionPoint& point, Memory& memory, RandomStream& stream,
                 BudgetMeter& meter);
     void find_candidates(const Memory& memory);
+    void time_comparison(const DecisionPoint& point, const Memory& memory, std::int64_t depth,
+                         RandomStream& stream, BudgetMeter& meter);
     // The steps that were made, fewer where time or steps are used up: then plans count by the
     // values of their ascents.
     std::int64_t compare(const DecisionPoint& point, const Memory& memory, std::int64_t depth,

@@ -247,7 +247,7 @@ solvers::Policy planner_policy(const rddl_simulator& simulator, const std::strin
             actor->act(decision);
         };
     };
-    return {policy, solvers::spaces_of(simulator), start};
+    return {policy, solvers::spaces_of(simulator), start, 0, true};
 }
 
 }  // namespace rddlc::planners

@@ -35,6 +35,7 @@ class BudgetMeter {
         return budget_.steps ? *budget_.steps - steps_ : std::numeric_limits<std::int64_t>::max();
     }
 
+    bool has_clock() const { return budget_.seconds.has_value(); }
     double seconds() const { return std::chrono::duration<double>(Clock::now() - begin_).count(); }
 
     // Whether there is room for one more iteration that takes about so much.

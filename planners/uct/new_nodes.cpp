@@ -95,6 +95,14 @@ void Uct::lock_where_it_stays(const DecisionPoint& point, std::size_t n, RandomS
     if (determinised.stays(state)) lock(tree().node(new_nodes_[n]), reward);
 }
 
+// A decision before may have had no budget left for it.
+void Uct::confirm_root(const DecisionPoint& point, RandomStream& stream, BudgetMeter& meter) {
+    if (!is_determinised() || tree().node(root_).is_locked) return;
+    new_nodes_.assign(1, root_);
+    determinised_states_.assign(1, memory_->determinised.state_of(tree().state(root_)));
+    lock_where_it_stays(point, 0, stream, meter);
+}
+
 // The lookahead, and the mean reward of the policy from its end to that of the search.
 double Uct::estimate(const DeterminisedProblem::Move& move, const Node& node) {
     DeterminisedProblem& determinised = memory_->determinised;

@@ -32,7 +32,7 @@ constexpr double least_tried = 0.2;
 // The parts of the memory limit that the memory of an episode may have in a decision, and after it.
 // They depend neither on threads nor on the batch, so that decisions do not either.
 constexpr std::size_t decision_share = 16;
-constexpr std::size_t kept_share = 256;
+constexpr std::size_t kept_share = 64;
 
 FiniteActions finite_actions(const rddl_simulator& simulator, int most) {
     const solvers::ActionSpace space = solvers::action_space(simulator);
@@ -51,17 +51,28 @@ FiniteActions finite_actions(const rddl_simulator& simulator, int most) {
 }
 
 std::int64_t affordable_lanes(const UctOptions& options, std::int64_t wanted) {
-    return std::clamp<std::int64_t>(options.budget.steps.value_or(most_steps) / 40, 1, wanted);
+    return std::clamp<std::int64_t>(options.budget.steps.value_or(most_steps) / 160, 1, wanted);
 }
 
-Initial initial_of(const UctOptions& options) {
-    return options.initial.value_or(options.policy.empty() ? Initial::Determinised
-                                                           : Initial::Lookahead);
+// Whether the determinised problem values new states in a small part of the budget. Of each action
+// it takes the draws of a typical step and those of what follows (new_nodes.cpp).
+bool may_determinise(const UctOptions& options, std::size_t actions) {
+    constexpr std::size_t most_actions = 64;
+    constexpr std::int64_t steps_of_action = 88, least_states = 8;
+    const std::int64_t steps = static_cast<std::int64_t>(actions) * steps_of_action;
+    return actions <= most_actions &&
+           options.budget.steps.value_or(most_steps) >= least_states * steps;
+}
+
+Initial initial_of(const UctOptions& options, std::size_t actions) {
+    if (options.initial) return *options.initial;
+    if (!options.policy.empty()) return Initial::Lookahead;
+    return may_determinise(options, actions) ? Initial::Determinised : Initial::Rollout;
 }
 
 std::int64_t leaf_lanes(const UctOptions& options, std::size_t actions) {
     const auto each =
-        static_cast<std::int64_t>(initial_of(options) == Initial::Lookahead ? actions : 4);
+        static_cast<std::int64_t>(initial_of(options, actions) == Initial::Lookahead ? actions : 4);
     return std::clamp<std::int64_t>(affordable_lanes(options, options.lanes) * each, 1,
                                     most_leaf_lanes);
 }
@@ -71,10 +82,10 @@ std::int64_t leaf_lanes(const UctOptions& options, std::size_t actions) {
 Uct::Uct(const PlannerContext& context, const UctOptions& options)
     : simulator_(context.simulator),
       options_(options),
-      initial_(initial_of(options)),
       state_size_(static_cast<std::size_t>(simulator_.problem->state_size)),
       action_size_(static_cast<std::size_t>(simulator_.problem->action_size)),
       actions_(finite_actions(simulator_, options.actions)),
+      initial_(initial_of(options, actions_.count())),
       trees_(simulator_, affordable_lanes(options, options.lanes), context.horizon),
       continuations_(simulator_, leaf_lanes(options, actions_.count()), context.horizon),
       most_bytes_(static_cast<std::size_t>(context.memory_limit) / decision_share),
@@ -166,14 +177,6 @@ bool Uct::open_root(const DecisionPoint& point, RandomStream& stream, BudgetMete
     // leaves that are looked at more shortly.
     if (least_ == most_) memory_->leaf_depth = short_leaf;
     return true;
-}
-
-// A decision before may have had no budget left for it.
-void Uct::confirm_root(const DecisionPoint& point, RandomStream& stream, BudgetMeter& meter) {
-    if (!is_determinised() || tree().node(root_).is_locked) return;
-    new_nodes_.assign(1, root_);
-    determinised_states_.assign(1, memory_->determinised.state_of(tree().state(root_)));
-    lock_where_it_stays(point, 0, stream, meter);
 }
 
 // As deep as can be done often in the budget.
@@ -380,6 +383,7 @@ EdgeId Uct::search(const DecisionPoint& point, RandomStream& stream, BudgetMeter
 // Keeps what the next decision may use, if it is small enough.
 void Uct::keep_below(EdgeId edge) {
     tree().keep_below(edge);
+    if (memory_->bytes() <= most_kept_bytes_) return;
     if (tree().bytes() > most_kept_bytes_ / 2) tree().clear();
     if (memory_->determinised.bytes() > most_kept_bytes_ / 2) memory_->determinised.clear();
 }
@@ -389,7 +393,10 @@ void Uct::note_explanation(Explanation& explanation, EdgeId chosen, const Budget
     explanation.iterations = meter.iterations();
     explanation.steps = meter.steps();
     const Node& root = tree().node(root_);
-    if (root.is_locked) explanation.note = "no action changes the state or the reward any more";
+    if (root.is_locked)
+        explanation.note = "no action changes the state or the reward any more";
+    else if (meter.iterations() == 0)
+        explanation.note = "the budget did not last for a trial";
     explanation.chosen = chosen - root.first_edge;
     for (const Edge& edge : tree().edges(root)) {
         const std::byte* const record = actions_.record(edge.action);

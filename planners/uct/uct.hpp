@@ -97,9 +97,9 @@ class Uct : public Planner {
 
     const rddl_simulator& simulator_;
     UctOptions options_;
-    Initial initial_;
     std::size_t state_size_, action_size_;
     FiniteActions actions_;
+    Initial initial_;
     Futures trees_;  // trials
     Continuations continuations_;
     std::vector<BasePolicy> policies_;           // that may play on

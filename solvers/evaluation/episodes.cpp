@@ -334,16 +334,16 @@ int thread_count(int wanted) {
     return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
 }
 
-// Enough environments to amortise a call, few enough to give every thread work and, with a trace,
-// to keep the lines that wait for their turn small.
+// Enough environments to amortise a call, and few enough to give every thread work. One by one they
+// are with a trace, so that few lines wait for their turn, and where a batch makes no call cheaper.
 std::int64_t batch_size(const EpisodeOptions& options, const rddl_simulator& simulator, int threads,
-                        bool traced) {
+                        bool one_by_one) {
     const std::int64_t bytes = bytes_per_environment(simulator) * threads;
     const std::int64_t most = std::max<std::int64_t>(options.memory_limit / bytes, 1);
     const std::int64_t chosen =
         options.batch > 0 ? std::min(options.batch, options.episodes)
-        : traced          ? 1
-                 : std::min(std::clamp<std::int64_t>(options.episodes / threads, 1, 64), most);
+        : one_by_one      ? 1
+                     : std::min(std::clamp<std::int64_t>(options.episodes / threads, 1, 64), most);
     require_memory(simulator, chosen * threads, options.memory_limit);
     return options.batch > 0 ? options.batch : chosen;
 }
@@ -363,8 +363,8 @@ Rollouts run_episodes(const rddl_simulator& simulator, const Policy& policy,
     EpisodeOptions chosen = options;
     rollouts.threads =
         static_cast<int>(std::min<std::int64_t>(thread_count(options.threads), options.episodes));
-    chosen.batch =
-        batch_size(options, simulator, rollouts.threads, static_cast<bool>(watch.record));
+    chosen.batch = batch_size(options, simulator, rollouts.threads,
+                              static_cast<bool>(watch.record) || policy.decides_one_by_one);
 
     const auto begin = std::chrono::steady_clock::now();
     Rollout rollout(simulator, policy, chosen, watch);

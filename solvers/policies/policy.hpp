@@ -41,6 +41,8 @@ struct Policy {
     // An actor for so many environments. Several may be at work in different threads.
     std::function<Actor(std::int64_t environments)> start;
     std::int64_t plans = 0;  // that it plays, one after the other; 0: it is not recorded
+    // It decides for one environment after the other: a batch of them only takes memory.
+    bool decides_one_by_one = false;
 };
 
 // Throws a Failure where the policy is of other spaces than those of the simulator.

@@ -7,9 +7,11 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cmath>
 #include <cstring>
 #include <filesystem>
+#include <thread>
 
 namespace rddlc::planners {
 namespace {
@@ -160,6 +162,45 @@ TEST(Gradient, ComparesAPlanOfManyStepsAfterAStop) {
         planner.decide({batch.get(), 0, 0, 0, 10, 10, &stops}, action.data(), &explanation);
         EXPECT_GT(explanation.iterations, 0);
         EXPECT_EQ(explanation.depth, replan == 1 ? 4 : 10);
+    }
+}
+
+// A comparison would take 100 steps of 20 ms each.
+TEST(Gradient, EndsADecisionOfALongPlanInTime) {
+    static const rddl_simulator& quick = target();
+    rddl_simulator simulator = target();
+    simulator.step = [](rddl_batch* batch, const void* actions, const rddl_transition* out) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(20));
+        return quick.step(batch, actions, out);
+    };
+    GradientOptions options;
+    options.budget.seconds = 0.02;
+    options.replan = options.horizon.emplace(100);
+    Gradient planner(
+        {simulator, 1, 100, default_memory_limit, {}, derivatives_in(PROBLEMS "/target")}, options);
+    rddl_batch_options batch_options{};
+    batch_options.horizon = 100;
+    const solvers::BatchHandle batch = solvers::create_batch(simulator, batch_options);
+    std::vector<std::byte> action(static_cast<std::size_t>(simulator.problem->action_size));
+    const auto begin = std::chrono::steady_clock::now();
+    planner.decide({batch.get(), 0, 0, 0, 100, 100}, action.data(), nullptr);
+    const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
+    EXPECT_LT(took.count(), 1.5);  // a busy machine sleeps longer
+}
+
+// Where memory is short there are fewer plans, and as many in any batch.
+TEST(Gradient, ShortMemoryGivesTheSameActionsInAnyBatch) {
+    for (const std::int64_t limit : {100'000, 1'000'000, 10'000'000}) {
+        const auto thought = [&](std::int64_t batch) {
+            return run(network(), "plan:gradient,iterations=2,horizon=4,plans=20", 4, 1, 0,
+                       derivatives_in(EXAMPLES "/network"), limit, batch)
+                .thought(0, 0);
+        };
+        const Explanation one = thought(1), other = thought(4);
+        ASSERT_EQ(one.candidates.size(), other.candidates.size()) << limit;
+        EXPECT_EQ(one.steps, other.steps) << limit;
+        for (std::size_t c = 0; c < one.candidates.size(); ++c)
+            EXPECT_EQ(one.candidates[c].value, other.candidates[c].value) << limit;
     }
 }
 

@@ -112,13 +112,13 @@ TEST(PlannerBudgets, SameStepsGiveTheSameActionsOnAnyNumberOfThreads) {
               "plan:uct,iterations=100,lanes=8"}) {
             if (is_uct(planner) && !is_finite(*simulator)) continue;
             SCOPED_TRACE(simulator->problem->domain + std::string(" ") + planner);
-            const Played one = run(*simulator, planner, 4, 1);
+            const Played one = run(*simulator, planner, 4, 1, 0, {}, default_memory_limit, 4);
             const Played two = run(*simulator, planner, 4, 2);
             expect_same(one, two);
         }
 }
 
-// What is kept of an episode is forgotten at the same decisions in any batch.
+// Trees and the states that are known are forgotten at the same decisions in any batch.
 TEST(PlannerBudgets, ShortMemoryGivesTheSameActionsInAnyBatch) {
     for (const std::int64_t limit : {1 << 18, 1 << 20, 1 << 22}) {
         SCOPED_TRACE(limit);
@@ -127,6 +127,14 @@ TEST(PlannerBudgets, ShortMemoryGivesTheSameActionsInAnyBatch) {
         };
         expect_same(in_batches_of(1), in_batches_of(4));
     }
+}
+
+// Trials end where they have taken their share of memory, however long they may go on.
+TEST(PlannerBudgets, EndWhereMemoryIsShort) {
+    const Explanation thought =
+        run(network(), "plan:uct,iterations=50000,lanes=8", 1, 1, 0, {}, 1 << 22).thought(0, 0);
+    EXPECT_GT(thought.iterations, 0);
+    EXPECT_LT(thought.iterations, 5000);
 }
 
 // Whatever the budget: an action is there, it is legal, and steps are kept to.

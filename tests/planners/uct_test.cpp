@@ -79,7 +79,8 @@ workbench::LoadedProblem corridor() {
 // A decision whose steps do not last for those draws leaves the question to a later one.
 TEST(Uct, SeesLaterWhereNothingChangesIfABudgetWasTooShort) {
     const workbench::LoadedProblem problem = corridor();
-    const Played plan = run(*problem.simulator, "plan:uct,lanes=1,steps=2100", 3);
+    const Played plan =
+        run(*problem.simulator, "plan:uct,lanes=1,steps=2100,initial=determinised", 3);
     int over = 0;
     for (const auto& [place, explanation] : plan.explanation) {
         const bool is_over = std::ranges::all_of(
@@ -151,6 +152,14 @@ TEST(Uct, ValuesTheRestByAPolicy) {
 
 // A policy's own action is tried more often than without a policy, however bad it is. The values
 // stay the same.
+TEST(Uct, MakesTrialsWhereTheDeterminisedProblemWouldTakeTheBudget) {
+    EXPECT_GT(run(network(), "plan:uct,steps=1000").thought(0, 0).iterations, 0);
+    const Explanation asked =
+        run(network(), "plan:uct,steps=1000,initial=determinised").thought(0, 0);
+    EXPECT_EQ(asked.iterations, 0);
+    EXPECT_EQ(asked.note, "the budget did not last for a trial");
+}
+
 TEST(Uct, TriesTheActionOfThePolicyFirst) {
     const auto thought = [](const std::string& options) {
         return run(ladder(), "plan:uct,initial=lookahead,lanes=1," + options).thought(0, 0);
