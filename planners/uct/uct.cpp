@@ -1,3 +1,4 @@
+// Over 400 lines: one search, from what its options allow to what it explains.
 #include "planners/uct/uct.hpp"
 
 #include "planners/simulation/random_stream.hpp"
