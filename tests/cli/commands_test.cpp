@@ -588,12 +588,12 @@ TEST_F(Program, EndsCleanlyWhenInterrupted) {
 
 TEST_F(Program, ShowsNoReturnWhereNoEpisodeWasFinished) {
     const std::string evaluate =
-        "evaluate domain.rddl instance.rddl --policy plan:uct,seconds=60 --episodes 1" +
+        "evaluate domain.rddl instance.rddl --policy plan:cem,seconds=60 --episodes 1" +
         std::string(interpreted);
     const std::string soon = "timeout --signal INT --preserve-status 2";
     const Outcome table = run(evaluate, soon);
     EXPECT_EQ(table.status, 130);
-    expect_part(table.out, "  -         -");
+    expect_part(table.out, "plan:cem,seconds=60       -           -    -    -");
     const Outcome written = run(evaluate + " --json", soon);
     EXPECT_EQ(written.status, 130);
     const json policy = json::parse(written.out)["policies"][0];
