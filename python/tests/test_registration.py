@@ -80,7 +80,8 @@ class Registration(unittest.TestCase):
 class Pictures(unittest.TestCase):
     def test_lists_of_pictures(self) -> None:
         env = example("mountain_car", render_mode="rgb_array_list", render_size=(60, 40))
-        self.assertIsNone(env.render())
+        with self.assertRaisesRegex(rddlc.EpisodeOver, r"reset\(\) before render"):
+            env.render()
         env.reset(seed=1)
         for count in (4, 3):
             for _ in range(3):
