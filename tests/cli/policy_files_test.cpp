@@ -313,7 +313,7 @@ TEST_F(PolicyFiles, CtrlCIsHeardWithinAChoiceAmongThousands) {
     write_file(folder_ / "free.rddl", problem(""));
     write_file(folder_ / "tied.rddl",
                problem(" action-preconditions { (sum_{?t : thing} set(?t)) <= 1; };"));
-    constexpr int seconds = 4;
+    constexpr int seconds = 2;
     int number = 0;
     for (const char* const file : {"free.rddl", "tied.rddl"})
         for (const char* const solver :
