@@ -137,8 +137,8 @@ void Uct::add_edges(NodeId node, const rddl_batch* batch, std::int64_t place) {
 void Uct::choose_memory(const DecisionPoint& point) {
     auto& memory = memories_.of(point);
     if (!memory) {
-        memory.emplace(Tree(state_size_, simulator_.problem->discount, options_.backup),
-                       DeterminisedProblem(state_size_, simulator_.problem->discount));
+        memory = Memory{Tree(state_size_, simulator_.problem->discount, options_.backup),
+                        DeterminisedProblem(state_size_, simulator_.problem->discount)};
         memory->tree.clear();
     }
     memory_ = &*memory;
