@@ -6,7 +6,7 @@
 
 namespace handwritten {
 
-struct AcademicAdvising {
+struct AcademicAdvising : RunsToTheHorizon {
     static constexpr int width = 8;
     static constexpr std::uint64_t horizon = 40;
     static constexpr bool stochastic = true;
@@ -84,15 +84,6 @@ struct AcademicAdvising {
         state = {passed | pass(passed, take ^ (take & passed), draws), taken | take};
         return -real_of_count(bit_count(take ^ again)) - 2.0 * real_of_count(bit_count(again)) -
                real_of_count(if_zero(missing, Word{std::uint64_t{0}}, Word{std::uint64_t{5}}));
-    }
-
-    template <class L>
-    static typename L::Bool terminated(const State<L>&) {
-        return false;
-    }
-    template <class L>
-    static typename L::Bool broken(const State<L>&) {
-        return false;
     }
 
     template <class L>

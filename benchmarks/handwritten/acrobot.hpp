@@ -8,7 +8,7 @@
 
 namespace handwritten {
 
-struct Acrobot {
+struct Acrobot : RunsToTheHorizon {
     static constexpr int width = 16;
     static constexpr std::uint64_t horizon = 200;
     static constexpr bool stochastic = false;
@@ -92,11 +92,6 @@ struct Acrobot {
         return s.is_up;
     }
     // The step keeps the speeds within their bounds.
-    template <class L>
-    static typename L::Bool broken(const State<L>&) {
-        return false;
-    }
-
     template <class L>
     static void store(const State<L>& s, std::int64_t lane, std::byte* record) {
         const double values[] = {lane_of(s.angle, lane), lane_of(s.bend, lane),

@@ -6,7 +6,7 @@
 
 namespace handwritten {
 
-struct BinPacking {
+struct BinPacking : RunsToTheHorizon {
     static constexpr int width = 16;
     static constexpr std::uint64_t horizon = 40;
     static constexpr bool stochastic = true;
@@ -76,10 +76,6 @@ struct BinPacking {
         return -rddl::to_real(used);
     }
 
-    template <class L>
-    static typename L::Bool terminated(const State<L>&) {
-        return false;
-    }
     template <class L>
     static typename L::Bool broken(const State<L>& s) {
         using Int = typename L::Int;

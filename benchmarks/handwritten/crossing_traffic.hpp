@@ -6,7 +6,7 @@
 
 namespace handwritten {
 
-struct CrossingTraffic {
+struct CrossingTraffic : RunsToTheHorizon {
     static constexpr int width = 8;
     static constexpr std::uint64_t horizon = 40;
     static constexpr bool stochastic = true;
@@ -79,15 +79,6 @@ struct CrossingTraffic {
         const auto [enters] = draw_bits<cells>(draws, 0, Word{entries}, inputs);
         state.obstacles = (obstacles >> size & ~(first_row | last_row)) | (enters & entries);
         return real_of_count(bit_count(there)) - 1.0;
-    }
-
-    template <class L>
-    static typename L::Bool terminated(const State<L>&) {
-        return false;
-    }
-    template <class L>
-    static typename L::Bool broken(const State<L>&) {
-        return false;
     }
 
     template <class L>

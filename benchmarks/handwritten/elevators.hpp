@@ -7,7 +7,7 @@
 
 namespace handwritten {
 
-struct Elevators {
+struct Elevators : RunsToTheHorizon {
     static constexpr int width = 8;
     static constexpr std::uint64_t horizon = 40;
     static constexpr bool stochastic = true;
@@ -113,15 +113,6 @@ struct Elevators {
              open_up | (s.upwards & (open_down ^ yes)),
              (s.closed & ((open_up | open_down) ^ yes)) | close};
         return reward;
-    }
-
-    template <class L>
-    static typename L::Bool terminated(const State<L>&) {
-        return false;
-    }
-    template <class L>
-    static typename L::Bool broken(const State<L>&) {
-        return false;
     }
 
     template <class L>

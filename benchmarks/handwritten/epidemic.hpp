@@ -7,7 +7,7 @@
 
 namespace handwritten {
 
-struct Epidemic {
+struct Epidemic : RunsToTheHorizon {
     static constexpr int width = 16;
     static constexpr std::uint64_t horizon = 120;
     static constexpr bool stochastic = false;
@@ -108,16 +108,7 @@ struct Epidemic {
                500.0 * larger(patients - 0.05, 0.0);
     }
 
-    template <class L>
-    static typename L::Bool terminated(const State<L>&) {
-        return false;
-    }
     // The step keeps all within 0 and 1.
-    template <class L>
-    static typename L::Bool broken(const State<L>&) {
-        return false;
-    }
-
     template <class L>
     static void store(const State<L>& state, std::int64_t lane, std::byte* record) {
         State<L> copy = state;

@@ -7,7 +7,7 @@
 
 namespace handwritten {
 
-struct GameOfLife {
+struct GameOfLife : RunsToTheHorizon {
     static constexpr int width = 8;
     static constexpr std::uint64_t horizon = 40;
     static constexpr bool stochastic = true;
@@ -85,15 +85,6 @@ struct GameOfLife {
             draw_bits<cells>(draws, 0, Word{everywhere}, noise, otherwise);
         state.alive = unlikely ^ ((unlikely ^ likely) & lives);
         return real_of_count(bit_count(alive)) - real_of_count(bit_count(actions.set));
-    }
-
-    template <class L>
-    static typename L::Bool terminated(const State<L>&) {
-        return false;
-    }
-    template <class L>
-    static typename L::Bool broken(const State<L>&) {
-        return false;
     }
 
     template <class L>

@@ -24,7 +24,7 @@ constexpr Lists<rows> lists_of(const std::uint64_t (&bits)[rows]) {
     return lists;
 }
 
-struct Hvac {
+struct Hvac : RunsToTheHorizon {
     static constexpr int width = 16;
     static constexpr std::uint64_t horizon = 100;
     static constexpr bool stochastic = true;
@@ -132,15 +132,6 @@ struct Hvac {
         for (std::size_t z = 0; z < zones; ++z) chances[z] = 1.0 - hvac::leave[z];
         return Thresholds::of_chances(chances);
     }();
-
-    template <class L>
-    static typename L::Bool terminated(const State<L>&) {
-        return false;
-    }
-    template <class L>
-    static typename L::Bool broken(const State<L>&) {
-        return false;
-    }
 
     template <class L>
     static void store(const State<L>& s, std::int64_t lane, std::byte* record) {

@@ -6,7 +6,7 @@
 
 namespace handwritten {
 
-struct Intruders {
+struct Intruders : RunsToTheHorizon {
     static constexpr int width = 16;
     static constexpr std::uint64_t horizon = 100;
     static constexpr bool stochastic = true;
@@ -97,15 +97,6 @@ struct Intruders {
                 s.intruder[i + 1] = moved(direction_of<L>(numbers.odd), s.intruder[i + 1]);
         }
         return reward;
-    }
-
-    template <class L>
-    static typename L::Bool terminated(const State<L>&) {
-        return false;
-    }
-    template <class L>
-    static typename L::Bool broken(const State<L>&) {
-        return false;
     }
 
     template <class L>

@@ -6,7 +6,7 @@
 
 namespace handwritten {
 
-struct Knapsack {
+struct Knapsack : RunsToTheHorizon {
     static constexpr int width = 16;
     static constexpr std::uint64_t horizon = 40;
     static constexpr bool stochastic = true;
@@ -61,16 +61,7 @@ struct Knapsack {
         return reward;
     }
 
-    template <class L>
-    static typename L::Bool terminated(const State<L>&) {
-        return false;
-    }
     // A step puts nothing into a knapsack that is full, and draws only items that there are.
-    template <class L>
-    static typename L::Bool broken(const State<L>&) {
-        return false;
-    }
-
     template <class L>
     static void store(const State<L>& s, std::int64_t lane, std::byte* record) {
         const std::int64_t values[] = {lane_of(s.total_weight, lane), lane_of(s.total_value, lane),

@@ -10,7 +10,7 @@
 
 namespace handwritten {
 
-struct MountainCar {
+struct MountainCar : RunsToTheHorizon {
     static constexpr int width = 16;
     static constexpr std::uint64_t horizon = 200;
     static constexpr bool stochastic = false;
@@ -90,11 +90,6 @@ struct MountainCar {
         return at_goal(state);
     }
     // The step keeps position and velocity within their bounds.
-    template <class L>
-    static typename L::Bool broken(const State<L>&) {
-        return false;
-    }
-
     template <class L>
     static void store(const State<L>& state, std::int64_t lane, std::byte* record) {
         const double values[] = {lane_of(state.position, lane), lane_of(state.velocity, lane)};

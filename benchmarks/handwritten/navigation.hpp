@@ -7,7 +7,7 @@
 
 namespace handwritten {
 
-struct Navigation {
+struct Navigation : RunsToTheHorizon {
     static constexpr int width = 16;
     static constexpr std::uint64_t horizon = 40;
     static constexpr bool stochastic = true;
@@ -94,15 +94,6 @@ struct Navigation {
         const auto number = if_zero(place & std::uint64_t{1}, numbers.even, numbers.odd);
         state.place = select(is_below(number, safe), to, rddl::Lanes<std::int64_t, n>{gone});
         return reward;
-    }
-
-    template <class L>
-    static typename L::Bool terminated(const State<L>&) {
-        return false;
-    }
-    template <class L>
-    static typename L::Bool broken(const State<L>&) {
-        return false;
     }
 
     template <class L>

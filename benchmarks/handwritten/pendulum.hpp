@@ -8,7 +8,7 @@
 
 namespace handwritten {
 
-struct Pendulum {
+struct Pendulum : RunsToTheHorizon {
     static constexpr int width = 16;
     static constexpr std::uint64_t horizon = 200;
     static constexpr bool stochastic = false;
@@ -58,16 +58,7 @@ struct Pendulum {
         return -cost;
     }
 
-    template <class L>
-    static typename L::Bool terminated(const State<L>&) {
-        return false;
-    }
     // The step keeps the velocity within its bounds.
-    template <class L>
-    static typename L::Bool broken(const State<L>&) {
-        return false;
-    }
-
     template <class L>
     static void store(const State<L>& s, std::int64_t lane, std::byte* record) {
         const double values[] = {lane_of(s.angle, lane), lane_of(s.velocity, lane),

@@ -6,7 +6,7 @@
 
 namespace handwritten {
 
-struct Pizza {
+struct Pizza : RunsToTheHorizon {
     static constexpr int width = 8;
     static constexpr std::uint64_t horizon = 40;
     static constexpr bool stochastic = true;
@@ -194,16 +194,7 @@ struct Pizza {
         return select(condition, Word{~std::uint64_t{0}}, Word{std::uint64_t{0}});
     }
 
-    template <class L>
-    static typename L::Bool terminated(const State<L>&) {
-        return false;
-    }
     // Each truck is at one place, if it is told to drive to one at most.
-    template <class L>
-    static typename L::Bool broken(const State<L>&) {
-        return false;
-    }
-
     template <class L>
     static void store(const State<L>& s, std::int64_t lane, std::byte* record) {
         for (int t = 0; t < trucks; ++t)

@@ -8,7 +8,7 @@
 
 namespace handwritten {
 
-struct PowerGen {
+struct PowerGen : RunsToTheHorizon {
     static constexpr int width = 16;
     static constexpr std::uint64_t horizon = 100;
     static constexpr bool stochastic = true;
@@ -176,15 +176,6 @@ struct PowerGen {
         const auto number = draws.two(Word{std::uint64_t{0}}, Word{std::uint64_t{0}}).even;
         s.temperature = next_temperature(s.temperature, number);
         return value;
-    }
-
-    template <class L>
-    static typename L::Bool terminated(const State<L>&) {
-        return false;
-    }
-    template <class L>
-    static typename L::Bool broken(const State<L>&) {
-        return false;
     }
 
     template <class L>

@@ -11,13 +11,13 @@
 
 namespace handwritten {
 
-struct RecSim {
+struct RecSim : RunsToTheHorizon {
     static constexpr int width = 16;
     static constexpr std::uint64_t horizon = 100;
     static constexpr bool stochastic = true;
     static constexpr std::size_t items = 15, consumers = std::size(recsim::affinity),
                                  providers = std::size(recsim::competence), features = 2, room = 16;
-    static constexpr std::int64_t nobody = providers;  // an item that no provider has
+    static constexpr std::int64_t no_provider = providers;  // an item that no provider has
 
     template <class L>
     struct State {
@@ -34,7 +34,7 @@ struct RecSim {
     static void start(State<rddl::Scalar>& state) {
         state = {};
         for (std::size_t p = 0; p < providers; ++p) state.provider[p] = recsim::satisfaction[p];
-        for (std::int64_t& owner : state.owner) owner = nobody;
+        for (std::int64_t& owner : state.owner) owner = no_provider;
         for (std::size_t i = 0; i < items; ++i)
             for (std::size_t f = 0; f < features; ++f)
                 state.feature[f][i] = recsim::first_features[i][f];
@@ -44,7 +44,7 @@ struct RecSim {
         for (std::size_t p = 0; p < providers; ++p)
             state.provider[p] = select(where, recsim::satisfaction[p], state.provider[p]);
         for (auto& satisfaction : state.consumer) satisfaction = select(where, 0.0, satisfaction);
-        for (auto& owner : state.owner) owner = select(where, nobody, owner);
+        for (auto& owner : state.owner) owner = select(where, no_provider, owner);
         for (std::size_t i = 0; i < items; ++i)
             for (std::size_t f = 0; f < features; ++f)
                 state.feature[f][i] =
@@ -199,15 +199,6 @@ struct RecSim {
             if (i + 1 < items) s.owner[i + 1] = owner_by(numbers.odd, limits);
         }
         return reward;
-    }
-
-    template <class L>
-    static typename L::Bool terminated(const State<L>&) {
-        return false;
-    }
-    template <class L>
-    static typename L::Bool broken(const State<L>&) {
-        return false;
     }
 
     template <class L>

@@ -8,6 +8,7 @@
 //     Actions<L>, load(actions, records)   from the caller's records, one after the other
 //     step(state, actions, draws)     makes a step, gives the reward
 //     terminated(state), broken(state)     a termination holds; an invariant does not
+//                                     (neither, in a problem that is a RunsToTheHorizon)
 //     store(state, lane, record)      the state record
 //
 // Rules of the game: a step is computed from the state record and the action record, as in the
@@ -52,6 +53,12 @@ struct Draws {
         return rddl::philox::generate<rddl::philox::draw_rounds>(
             rddl::philox::Block<Word>{step, site, block, Word{std::uint64_t{0}}}, key);
     }
+};
+
+// A problem whose episodes end at the horizon, or by the one of the two that it defines itself.
+struct RunsToTheHorizon {
+    static constexpr bool terminated(const auto&) { return false; }
+    static constexpr bool broken(const auto&) { return false; }
 };
 
 template <class P>
@@ -123,7 +130,7 @@ class Reference {
             step += typename L::Word{Word{1}};
             const Draws<typename L::Word> draws{step, {key_low, key_high}};
             P::step(state, actions, draws).store(rewards);
-            const auto is_terminated = P::terminated(state);
+            const typename L::Bool is_terminated = P::terminated(state);
             const auto is_truncated = same(step, typename L::Word{P::horizon}) || P::broken(state);
             store_bits(is_terminated.bits, terminated);
             store_bits(is_truncated.bits, truncated);

@@ -12,7 +12,7 @@
 
 namespace handwritten {
 
-struct Reservoir {
+struct Reservoir : RunsToTheHorizon {
     static constexpr int width = 16;
     static constexpr std::uint64_t horizon = 100;
     static constexpr bool stochastic = true;
@@ -127,16 +127,7 @@ struct Reservoir {
         return penalty;
     }
 
-    template <class L>
-    static typename L::Bool terminated(const State<L>&) {
-        return false;
-    }
     // The step keeps the levels within their bounds.
-    template <class L>
-    static typename L::Bool broken(const State<L>&) {
-        return false;
-    }
-
     template <class L>
     static void store(const State<L>& state, std::int64_t lane, std::byte* record) {
         double values[count];

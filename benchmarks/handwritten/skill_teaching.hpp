@@ -6,7 +6,7 @@
 
 namespace handwritten {
 
-struct SkillTeaching {
+struct SkillTeaching : RunsToTheHorizon {
     static constexpr int width = 8;
     static constexpr std::uint64_t horizon = 40;
     static constexpr bool stochastic = true;
@@ -123,15 +123,6 @@ struct SkillTeaching {
              ask | hint,      right(ask, s.high, s.medium, is_ready, draws),
              hint & is_ready, hint};
         return value;
-    }
-
-    template <class L>
-    static typename L::Bool terminated(const State<L>&) {
-        return false;
-    }
-    template <class L>
-    static typename L::Bool broken(const State<L>&) {
-        return false;
     }
 
     template <class L>

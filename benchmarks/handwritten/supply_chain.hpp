@@ -7,7 +7,7 @@
 
 namespace handwritten {
 
-struct SupplyChain {
+struct SupplyChain : RunsToTheHorizon {
     static constexpr int width = 16;
     static constexpr std::uint64_t horizon = 252;
     static constexpr bool stochastic = true;
@@ -126,16 +126,7 @@ struct SupplyChain {
                0.5 * rddl::to_real(missing) - 0.05 * all_trucks;
     }
 
-    template <class L>
-    static typename L::Bool terminated(const State<L>&) {
-        return false;
-    }
     // The step keeps stocks and demands within their bounds.
-    template <class L>
-    static typename L::Bool broken(const State<L>&) {
-        return false;
-    }
-
     template <class L>
     static void store(const State<L>& s, std::int64_t lane, std::byte* record) {
         std::int64_t values[2 + 3 * warehouses];

@@ -9,7 +9,7 @@
 
 namespace handwritten {
 
-struct SysAdmin {
+struct SysAdmin : RunsToTheHorizon {
     static constexpr int width = 8;
     static constexpr std::uint64_t horizon = 40;
     static constexpr bool stochastic = true;
@@ -129,15 +129,6 @@ struct SysAdmin {
         const auto chance = select(is_down, rddl::Lanes<double, n>{sysadmin::reboot},
                                    chances.base[x] + chances.per_neighbour[x] * count);
         return select(number < chance, std::uint64_t{1} << x, std::uint64_t{0});
-    }
-
-    template <class L>
-    static typename L::Bool terminated(const State<L>&) {
-        return false;
-    }
-    template <class L>
-    static typename L::Bool broken(const State<L>&) {
-        return false;
     }
 
     static void store(const State<rddl::Scalar>& state, std::int64_t, std::byte* record) {

@@ -7,7 +7,7 @@
 
 namespace handwritten {
 
-struct Traffic {
+struct Traffic : RunsToTheHorizon {
     static constexpr int width = 8;
     static constexpr std::uint64_t horizon = 40;
     static constexpr bool stochastic = true;
@@ -107,15 +107,6 @@ struct Traffic {
         using Word = rddl::Lanes<std::uint64_t, n>;
         return select(is_below(number, Word{rates[half][cell]}), Word{std::uint64_t{1} << cell},
                       Word{std::uint64_t{0}});
-    }
-
-    template <class L>
-    static typename L::Bool terminated(const State<L>&) {
-        return false;
-    }
-    template <class L>
-    static typename L::Bool broken(const State<L>&) {
-        return false;
     }
 
     template <class L>

@@ -7,7 +7,7 @@
 
 namespace handwritten {
 
-struct TriangleTireworld {
+struct TriangleTireworld : RunsToTheHorizon {
     static constexpr int width = 8;
     static constexpr std::uint64_t horizon = 40;
     static constexpr bool stochastic = true;
@@ -116,15 +116,6 @@ struct TriangleTireworld {
             });
         }
         return rddl::Lanes<double, n>::load(rewards);
-    }
-
-    template <class L>
-    static typename L::Bool terminated(const State<L>&) {
-        return false;
-    }
-    template <class L>
-    static typename L::Bool broken(const State<L>&) {
-        return false;
     }
 
     template <class L>

@@ -10,7 +10,7 @@
 
 namespace handwritten {
 
-struct Wildfire {
+struct Wildfire : RunsToTheHorizon {
     static constexpr int width = 16;
     static constexpr std::uint64_t horizon = 40;
     static constexpr bool stochastic = true;
@@ -142,15 +142,6 @@ struct Wildfire {
             caught = caught | below(cell, numbers.even) | below(cell + 1, numbers.odd);
         }
         return caught & may_catch;
-    }
-
-    template <class L>
-    static typename L::Bool terminated(const State<L>&) {
-        return false;
-    }
-    template <class L>
-    static typename L::Bool broken(const State<L>&) {
-        return false;
     }
 
     template <class L>
