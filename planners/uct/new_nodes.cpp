@@ -13,9 +13,6 @@ namespace {
 
 // Draws of each action by which a state is known for one that nothing changes.
 constexpr std::size_t lock_draws = 64;
-// Steps and draws by which a policy values what comes after a lookahead.
-constexpr std::int64_t later_steps = 20;
-constexpr std::size_t later_draws = 4;
 
 }  // namespace
 

@@ -11,13 +11,12 @@ namespace rddlc::planners {
 
 namespace {
 
-constexpr std::size_t most_draws = 8;
 constexpr std::size_t wanted_lanes = 512;
 constexpr std::size_t most_lanes = 4096;
 
 std::size_t draws_of(const rddl_simulator& simulator, std::size_t actions) {
     if (!simulator.problem->stochastic) return 1;
-    return std::clamp<std::size_t>(most_lanes / actions, 1, most_draws);
+    return std::clamp<std::size_t>(most_lanes / actions, 1, most_typical_draws);
 }
 
 // Each episode is over after the one step that counts, so that lanes which are not wanted the next
@@ -125,7 +124,7 @@ double TypicalSteps::reward(std::size_t state, std::size_t action) const {
 
 // The one whose state differs least from those of the others.
 std::size_t TypicalSteps::typical_draw(std::size_t state, std::size_t action) const {
-    std::size_t differences[most_draws] = {};
+    std::size_t differences[most_typical_draws] = {};
     for (std::size_t d = 1; d < draws_; ++d)
         for (std::size_t other = 0; other < d; ++other) {
             const std::size_t count =

@@ -14,6 +14,9 @@
 
 namespace rddlc::planners {
 
+// Draws of each action; fewer with many actions.
+inline constexpr std::size_t most_typical_draws = 8;
+
 class TypicalSteps {
   public:
     // `simulator` and `actions` must outlive it.

@@ -56,10 +56,12 @@ std::int64_t affordable_lanes(const UctOptions& options, std::int64_t wanted) {
 }
 
 // Whether the determinised problem values new states in a small part of the budget. Of each action
-// it takes the draws of a typical step and those of what follows (new_nodes.cpp).
+// it takes the draws of a typical step, and those of what follows.
 bool may_determinise(const UctOptions& options, std::size_t actions) {
     constexpr std::size_t most_actions = 64;
-    constexpr std::int64_t steps_of_action = 88, least_states = 8;
+    constexpr std::int64_t least_states = 8;
+    constexpr std::int64_t steps_of_action =
+        most_typical_draws + static_cast<std::int64_t>(later_draws) * later_steps;
     const std::int64_t steps = static_cast<std::int64_t>(actions) * steps_of_action;
     return actions <= most_actions &&
            options.budget.steps.value_or(most_steps) >= least_states * steps;

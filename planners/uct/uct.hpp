@@ -21,6 +21,10 @@
 
 namespace rddlc::planners {
 
+// Steps and draws by which a policy values what comes after a lookahead.
+inline constexpr std::int64_t later_steps = 20;
+inline constexpr std::size_t later_draws = 4;
+
 class Uct : public Planner {
   public:
     Uct(const PlannerContext& context, const UctOptions& options);
