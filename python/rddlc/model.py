@@ -74,7 +74,7 @@ class Condition:
     source: Source
 
 
-# What programs ask of the model that pyRDDLGym's env.model is, and where ours has it.
+# Attributes of pyRDDLGym's env.model that programs ask for, and the place where ours has each.
 OF_PYRDDLGYM = {
     "state_fluents": "states",
     "action_fluents": "actions",

@@ -1,6 +1,6 @@
 // Fills tables so that loops can be evaluated for several objects at once (evaluate_together.hpp).
 //
-// What a loop aggregates for each of its objects is computed before it:
+// An aggregation that a loop makes for each of its objects is computed before the loop:
 //
 //     for t in tank                                   for t in tank
 //         next.level[t] = sample normal@0[t](0, 1)        level-part[t] = sum[e in row](flow[e])
