@@ -217,6 +217,101 @@ template <int size>
 }  // namespace detail
 #endif
 
+// n bytes, in the parts in which store_bytes and store_as_bytes store them: processors are slow to
+// load what was stored in other parts. Zeros behind them.
+template <class V, int n>
+[[gnu::always_inline]] inline V load_bytes(const void* from) {
+    V values{};
+#ifdef RDDL_SIMD_AVX512
+    if constexpr (n < register_bytes) return reinterpret<V>(load_many_parts(from, n));
+#endif
+    __builtin_memcpy(&values, from, n);
+    return values;
+}
+template <int n, class V>
+[[gnu::always_inline]] inline void store_bytes(V values, void* to) {
+#ifdef RDDL_SIMD_AVX512
+    if constexpr (n < register_bytes) {
+        const auto store = [&]<int i>(std::integral_constant<int, i>)
+            __attribute__((always_inline)) {
+            if constexpr (i < n)
+                store_parts(static_cast<char*>(to) + i,
+                            _mm512_maskz_extracti32x4_epi32(0xF, reinterpret<__m512i>(values),
+                                                            i / 16),
+                            n - i < 16 ? n - i : 16);
+        };
+        store(std::integral_constant<int, 0>());
+        store(std::integral_constant<int, 16>());
+        store(std::integral_constant<int, 32>());
+        store(std::integral_constant<int, 48>());
+        return;
+    }
+#endif
+    __builtin_memcpy(to, &values, n);
+}
+
+// A bit for each byte of a register that is not 0; and the bytes of 0 and 1 for such bits.
+template <class V>
+[[gnu::always_inline]] inline std::uint64_t nonzero_bytes(V bytes) {
+#ifdef RDDL_SIMD_AVX512
+    return _mm512_test_epi8_mask(reinterpret<__m512i>(bytes), reinterpret<__m512i>(bytes));
+#else
+    return bits_of_bytes(&bytes, register_bytes);
+#endif
+}
+template <class V>
+[[gnu::always_inline]] inline V bytes_for_bits(std::uint64_t bits) {
+#ifdef RDDL_SIMD_AVX512
+    return reinterpret<V>(_mm512_maskz_set1_epi8(bits, 1));
+#else
+    V bytes;
+    store_as_bytes<register_bytes>(bits, &bytes, register_bytes);
+    return bytes;
+#endif
+}
+
+// The bytes of a table of `size` <= most_chosen_bytes that have these places.
+#if defined(__AVX512VBMI__)
+inline constexpr std::int64_t most_chosen_bytes = 256;
+template <std::int64_t size, class V>
+[[gnu::always_inline]] inline V chosen_bytes(const void* table, V bytes_of_places) {
+    constexpr __mmask64 all = ~std::uint64_t{0};
+    const auto places = reinterpret<__m512i>(bytes_of_places);
+    const auto part = [&](int first) __attribute__((always_inline)) {
+        const int rest = static_cast<int>(size) - first;
+        return load_many_parts(static_cast<const char*>(table) + first, rest < 64 ? rest : 64);
+    };
+    const auto chosen = [&]<int first, int rest>() __attribute__((always_inline)) {
+        if constexpr (rest <= 64)
+            return _mm512_maskz_permutexvar_epi8(all, places, part(first));
+        else
+            return _mm512_maskz_permutex2var_epi8(all, part(first), places, part(first + 64));
+    };
+    const __m512i in_first = chosen.template operator()<0, size>();
+    if constexpr (size <= 128)
+        return reinterpret<V>(in_first);
+    else
+        return reinterpret<V>(_mm512_mask_mov_epi8(in_first, _mm512_movepi8_mask(places),
+                                                   chosen.template operator()<128, size - 128>()));
+}
+#elif defined(__AVX2__)
+inline constexpr std::int64_t most_chosen_bytes = 128;
+template <std::int64_t size, class V>
+[[gnu::always_inline]] inline V chosen_bytes(const void* table, V places) {
+    constexpr int parts = register_bytes / 32;
+    __m256i part[parts];
+    __builtin_memcpy(part, &places, sizeof part);
+    for (__m256i& some : part)
+        some = detail::chosen_bytes<static_cast<int>(size)>(static_cast<const char*>(table), some);
+    __builtin_memcpy(&places, part, sizeof part);
+    return places;
+}
+#else
+inline constexpr std::int64_t most_chosen_bytes = 0;
+template <std::int64_t size, class V>
+V chosen_bytes(const void* table, V places) = delete;
+#endif
+
 // A bit for each of 0 < `count` <= 64 bytes of a table of `size` that is not 0: those with these
 // places.
 template <std::int64_t size, class Place>
