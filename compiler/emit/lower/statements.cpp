@@ -153,12 +153,12 @@ void FunctionBody::over_several_objects(const ir::Loop& loop) {
         has_context ? tree::Expression{tree::Declared{"auto&", context}} : tree::word("auto&"),
         {tree::Declared{"auto", objects}}};
     tree::Expression lambda{tree::Lambda{std::move(parameters), std::move(body)}};
-    statements_.push_back(
-        {loop.as_words ? tree::call("rddl::for_many_objects<" + count + ">",
-                                    tree::list(tree::word("context"), std::move(lambda)))
-                       : tree::call("rddl::for_each_object",
-                                    tree::list(tree::word("context"), tree::word(count),
-                                               std::move(lambda)))});
+    statements_.push_back({loop.as_words
+                               ? tree::call("rddl::for_many_objects<" + count + ">",
+                                            tree::list(tree::word("context"), std::move(lambda)))
+                               : tree::call("rddl::for_each_object",
+                                            tree::list(tree::word("context"), tree::word(count),
+                                                       std::move(lambda)))});
     expressions_.leave_nest();
     expressions_.return_to(before);
 }

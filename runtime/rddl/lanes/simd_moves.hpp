@@ -228,6 +228,15 @@ template <class V, int n>
     __builtin_memcpy(&values, from, n);
     return values;
 }
+// The same of constants, which are loaded as a whole.
+template <class V, int n>
+[[gnu::always_inline]] inline V load_constant_bytes(const void* from) {
+#ifdef RDDL_SIMD_AVX512
+    return reinterpret<V>(_mm512_maskz_loadu_epi8(~std::uint64_t{0} >> (64 - n), from));
+#else
+    return load_bytes<V, n>(from);
+#endif
+}
 template <int n, class V>
 [[gnu::always_inline]] inline void store_bytes(V values, void* to) {
 #ifdef RDDL_SIMD_AVX512
@@ -235,10 +244,10 @@ template <int n, class V>
         const auto store = [&]<int i>(std::integral_constant<int, i>)
             __attribute__((always_inline)) {
             if constexpr (i < n)
-                store_parts(static_cast<char*>(to) + i,
-                            _mm512_maskz_extracti32x4_epi32(0xF, reinterpret<__m512i>(values),
-                                                            i / 16),
-                            n - i < 16 ? n - i : 16);
+                store_parts(
+                    static_cast<char*>(to) + i,
+                    _mm512_maskz_extracti32x4_epi32(0xF, reinterpret<__m512i>(values), i / 16),
+                    n - i < 16 ? n - i : 16);
         };
         store(std::integral_constant<int, 0>());
         store(std::integral_constant<int, 16>());

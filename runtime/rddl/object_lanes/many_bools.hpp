@@ -135,7 +135,11 @@ template <class Bool, int n>
 RDDL_INLINE ManyBools<Bool, n> spread_many(const bool* from) {
     using Many = ManyBools<Bool, n>;
     if constexpr (std::is_same_v<Bool, bool>) {
-        return load_many<n>(from);
+        if (!__builtin_constant_p(from[0])) return load_many<n>(from);
+        return Many::of_parts([&]<int p, int count>() RDDL_INLINE_LAMBDA {
+            return simd::load_constant_bytes<typename Many::Vector, count>(from +
+                                                                           p * Many::part_width);
+        });
     } else {
         typedef std::int8_t Bytes __attribute__((vector_size(Many::part_width)));
         return Many::of_parts([&]<int p, int count>() RDDL_INLINE_LAMBDA {
@@ -169,7 +173,7 @@ RDDL_INLINE ManyBools<Bool, n> choose_many(const Bool* table, const Place* place
     return Many::of_parts([&]<int p, int count>() RDDL_INLINE_LAMBDA {
         const Place* const first = places + p * Many::part_width;
         if constexpr (sizeof(Bool) == 1 && sizeof(Place) == 1 && size <= simd::most_chosen_bytes)
-            return simd::chosen_bytes<size>(table, simd::load_bytes<Vector, count>(first));
+            return simd::chosen_bytes<size>(table, simd::load_constant_bytes<Vector, count>(first));
         else
             return many_bools::chosen<Vector>(table, first, count,
                                               std::make_index_sequence<Many::part_width>());

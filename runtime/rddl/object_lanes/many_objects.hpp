@@ -105,6 +105,21 @@ RDDL_INLINE auto branch(Context<BoolsOfMany<n, L>>& context, const Condition& co
     context.active = active;
     return select(chosen, a, b);
 }
+// Chains of else-ifs (ops.hpp), which compilers would else call with all registers in memory.
+template <class Bool, int n, std::invocable Then, class Next, class... Rest>
+requires(sizeof...(Rest) >= 2)  //
+    RDDL_INLINE auto branch(const ManyBools<Bool, n>& condition, Then&& then_value, Next&& next,
+                            Rest&&... rest) {
+    return branch(condition, then_value,
+                  [&]() RDDL_INLINE_LAMBDA { return branch(next(), rest...); });
+}
+template <int n, class L, class Condition, class Then, class Next, class... Rest>
+requires(sizeof...(Rest) >= 2)  //
+    RDDL_INLINE auto branch(Context<BoolsOfMany<n, L>>& context, const Condition& condition,
+                            Then&& then_value, Next&& next, Rest&&... rest) {
+    return branch(context, condition, then_value,
+                  [&]() RDDL_INLINE_LAMBDA { return branch(context, next(), rest...); });
+}
 
 // ------------------------------------------------------------------------------------ draws
 
@@ -142,8 +157,7 @@ RDDL_INLINE std::uint64_t drawn_bits(const Context<ScalarOf<R>>& context, Place 
         const SomeObjects<objects_at_once> objects{first + k, 64 - __builtin_clzll(some.bits)};
         Context<Objects<objects_at_once, R>> drawing{schedule, some};
         const Place of_first(place.site, place.index + first + k, place.series);
-        const Mask<objects_at_once> below =
-            uniform_at(drawing, of_first) < reals_of(p, objects);
+        const Mask<objects_at_once> below = uniform_at(drawing, of_first) < reals_of(p, objects);
         drawn |= std::uint64_t{(below && some).bits} << k;
     }
     return drawn;
@@ -222,22 +236,28 @@ RDDL_INLINE Mask<lanes> active_in(const Context<Pack<lanes, R>>& context) {
     return context.active;
 }
 
+// All that the body calls becomes a part of it: registers are not passed between functions.
 template <int n, class L, class Body>
-RDDL_INLINE void for_these_objects(Context<L>& context, Index first, Body&& body) {
+[[gnu::flatten]] void for_these_objects(Context<L>& context, Index first, Body&& body) {
     Context<BoolsOfMany<n, L>> many{context, active_in(context)};
     body(many, ManyObjects<n, L>{first});
 }
 
 }  // namespace detail
 
-// Calls body(context, objects) for all of [0, count).
+// Calls body(context, objects) for all of [0, count). The bools of few objects of one environment
+// are the bits of a mask, which takes fewer instructions than a nearly empty register.
 template <Index count, class L, class Body>
 RDDL_INLINE void for_many_objects(Context<L>& context, Body&& body) {
     constexpr int at_once = detail::most_in_registers<typename L::Bool>;
     constexpr int rest = static_cast<int>(count % at_once);
-    for (Index first = 0; first < count - rest; first += at_once)
-        detail::for_these_objects<at_once>(context, first, body);
-    if constexpr (rest > 0) detail::for_these_objects<rest>(context, count - rest, body);
+    if constexpr (L::width == 1 && count <= objects_at_once) {
+        for_each_object(context, count, body);
+    } else {
+        for (Index first = 0; first < count - rest; first += at_once)
+            detail::for_these_objects<at_once>(context, first, body);
+        if constexpr (rest > 0) detail::for_these_objects<rest>(context, count - rest, body);
+    }
 }
 
 }  // namespace rddl

@@ -127,9 +127,9 @@ RDDL_INLINE Mask<n> uniform_below(Context<Pack<n, R>>& context, Place place, Mas
         return wanted && uniform_at(context, place) < Lanes<R, n>(p);
     Mask<n> below = wanted;
     for_each_lane(wanted, [&](int lane) RDDL_INLINE_LAMBDA {
-        const auto numbers = first_numbers<R, std::uint64_t>(
-            context.step[lane], place.series, place.index / 2,
-            {context.key_low[lane], context.key_high[lane]});
+        const auto numbers =
+            first_numbers<R, std::uint64_t>(context.step[lane], place.series, place.index / 2,
+                                            {context.key_low[lane], context.key_high[lane]});
         const R u = place.index % 2 == 0 ? numbers.even : numbers.odd;
         if (!(u < get_lane(p, lane))) below.set(lane, false);
     });

@@ -119,8 +119,8 @@ RDDL_INLINE Lanes<T, n> choose(Mask<n> condition, const Lanes<T, n>& a, const La
 
 template <int n, class A, class B>
 requires std::is_same_v<LanesOf<A, n>, LanesOf<B, n>> RDDL_INLINE auto select(Mask<n> condition,
-                                                                            const A& a,
-                                                                            const B& b) {
+                                                                              const A& a,
+                                                                              const B& b) {
     using Result = LanesOf<A, n>;
     return detail::choose(condition, Result(a), Result(b));
 }

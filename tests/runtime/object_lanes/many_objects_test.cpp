@@ -70,7 +70,9 @@ void expect_the_same(const Places& places) {
                 [&] { return at_places(from, x, places) == flag; });
             elements(to.drawn, x) = branch(
                 several, at_places(from, x, places) && at(constants<n>, x),
-                [&] { return sample::valid_bernoulli(several, {0, x}, at(chance, x)); },
+                [&] {
+                    return sample::valid_bernoulli(several, {0, x}, at(chance, x));
+                },
                 [&] { return flag; });
             elements(to.drawn_everywhere, x) = sample::bernoulli(several, {1, x, 2}, 0.25);
         };
