@@ -203,12 +203,13 @@ RDDL_INLINE void store_masks(const std::array<BitColumns, n / 8>& columns, int c
 // Rows of few bytes are read as one run of bytes, and a column has the bits that lie a row apart.
 inline constexpr std::int64_t widest_narrow_row = 16;
 
-// Bits that lie `distance` apart, from bit 0 on.
-constexpr std::uint64_t bits_apart(std::int64_t distance) {
-    std::uint64_t bits = 0;
-    for (std::int64_t i = 0; i < 64; i += distance) bits |= std::uint64_t{1} << i;
+// By distance: bits that lie so far apart, from bit 0 on.
+inline constexpr auto bits_apart = [] {
+    std::array<std::uint64_t, widest_narrow_row + 1> bits{};
+    for (std::size_t distance = 1; distance < bits.size(); ++distance)
+        for (std::size_t i = 0; i < 64; i += distance) bits[distance] |= std::uint64_t{1} << i;
     return bits;
-}
+}();
 // `count` bools of each of n rows, which have at most `widest_narrow_row` bytes.
 template <int n>
 RDDL_ALWAYS_INLINE void read_narrow_rows(const std::byte* rows, std::int64_t row_size,
@@ -220,7 +221,7 @@ RDDL_ALWAYS_INLINE void read_narrow_rows(const std::byte* rows, std::int64_t row
         for (std::int64_t first = 0; first < byte_count; first += 64) {
             const auto some = static_cast<int>(std::min<std::int64_t>(64, byte_count - first));
             const std::int64_t phase = ((k - first) % row_size + row_size) % row_size;
-            const std::uint64_t own = bits_apart(row_size) << phase;
+            const std::uint64_t own = bits_apart[static_cast<std::size_t>(row_size)] << phase;
             column |= _pext_u64(simd::bits_of_bytes(rows + first, some), own) << lanes;
             lanes += __builtin_popcountll(own);
         }
