@@ -37,7 +37,7 @@ TEST(SeparateDraws, MakesThemBeforeWhatIsLeftInWords) {
     EXPECT_NE(text.find("for x in obj, several at once\n"), text.npos) << text;
     EXPECT_NE(text.find("scratch.on-draw[x, y, z, w] = select(ENTRY[x, y, z, w], "
                         "sample bernoulli@0[((x * 3 + y) * 3 + z) * 3 + w]("
-                        "select(action.go[x], 0.2, 0.5)), false)\n"),
+                        "select(element(action.go, on-places[x, y, z, w]), 0.2, 0.5)), false)\n"),
               text.npos)
         << text;
     EXPECT_NE(text.find("for x in obj, as words\n"), text.npos) << text;
