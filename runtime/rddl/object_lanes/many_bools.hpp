@@ -7,7 +7,7 @@
 
 #include <rddl/lanes/pack.hpp>
 #include <rddl/lanes/simd.hpp>
-#include <rddl/lanes/simd_moves.hpp>
+#include <rddl/lanes/simd_bytes.hpp>
 
 #include <cstddef>
 #include <cstdint>

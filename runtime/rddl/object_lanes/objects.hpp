@@ -7,6 +7,7 @@
 #pragma once
 
 #include <rddl/lanes/simd.hpp>
+#include <rddl/lanes/simd_bytes.hpp>
 #include <rddl/lanes/simd_moves.hpp>
 #include <rddl/random/random.hpp>
 #include <rddl/values/bits.hpp>
