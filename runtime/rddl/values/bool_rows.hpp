@@ -235,8 +235,10 @@ template <int n>
 RDDL_ALWAYS_INLINE void read_bools(const std::byte* rows, std::int64_t row_size, int present,
                                    std::int64_t count, Mask<n>* masks) {
 #ifdef RDDL_SIMD_AVX512
-    // Where the compiler knows the rows, all of this is a few instructions.
-    if (__builtin_constant_p(row_size) && row_size <= widest_narrow_row && present == n)
+    // Where the compiler knows the rows, few columns of them are a few instructions.
+    constexpr std::int64_t most = 2 * widest_narrow_row;
+    if (__builtin_constant_p(count * row_size) && row_size <= widest_narrow_row &&
+        count * row_size <= most && present == n)
         return read_narrow_rows(rows, row_size, count, masks);
 #endif
     for (std::int64_t first = 0; first < count; first += 64) {
