@@ -64,7 +64,7 @@ RDDL_INLINE const auto& element(const Table& table, Index place) {
 }
 
 // Whether a byte that a caller has given for a bool is not 0; in packs they are masks already.
-RDDL_INLINE bool is_true(const bool& given) {
+RDDL_ALWAYS_INLINE bool is_true(const bool& given) {
     return *reinterpret_cast<const unsigned char*>(&given) != 0;
 }
 template <int n>
