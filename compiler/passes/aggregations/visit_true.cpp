@@ -107,7 +107,7 @@ class Visiting {
         for (const ir::NodeId factor : factors)
             if (!is_constant(factor, pairs)) pairs.factors.push_back(factor);
         if (pairs.relation.tuples.empty()) return std::nullopt;
-        // What lies in few places decides first.
+        // Factors that read few bytes decide first.
         std::ranges::stable_partition(pairs.factors,
                                       [&](ir::NodeId each) { return !reads_large_table(each); });
         return pairs;
@@ -140,7 +140,7 @@ class Visiting {
                                    [&](ir::NodeId operand) { return reads_large_table(operand); });
     }
 
-    // What the definition itself computes is no part of it, nor is another aggregation.
+    // Neither a value that the definition itself computes nor another aggregation is part of it.
     bool is_known_before(ir::NodeId id) const {
         const ir::Node& node = program_[id];
         const auto buffer = ir::buffer_read_by(node);
