@@ -8,6 +8,8 @@
 // used inside the statement or reduction that binds it, and not bound again there (several loops
 // side by side may bind the same variable); types fit; each site is used by one node or call; the
 // right operand of And, Or and Implies cannot fault; buffers are read after they are computed.
+//
+// Over 400 lines: readers of the representation find all of it here.
 #pragma once
 
 #include "model/table.hpp"
