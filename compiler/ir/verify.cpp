@@ -561,8 +561,13 @@ class Verifier {
                     rows.shape == std::vector{visited.size + 1},
                 "'{}' does not hold the rows of '{}'", rows.name, visited.name);
         require(are_indices(target, form.indices), "the indices of '{}' do not fit", target.name);
+        const auto* element = std::get_if<Load>(&program_[form.condition].form);
+        require(element && element->indices.size() == 1 &&
+                    program_[element->indices.front()].form ==
+                        Node{Scalar::Int, Index{form.visited}}.form,
+                "the condition of '{}' is no element at '{}'", target.name, visited.name);
         require(type(form.condition) == Scalar::Bool && type(form.value) == Scalar::Bool,
-                "what is true for '{}' is a bool", target.name);
+                "the values that '{}' joins are no bools", target.name);
         for (const VariableId variable : {form.visited, form.entry})
             require(scope.variables.insert(variable).second, "'{}' is bound inside itself",
                     program_[variable].name);
