@@ -5,6 +5,7 @@
 #include "native/dictionary_writer.hpp"
 #include "native/enumeration.hpp"
 #include "native/env_pool.hpp"
+#include "native/feature_writer.hpp"
 #include "native/learners.hpp"
 #include "native/numpy_numbers.hpp"
 #include "native/painter.hpp"
@@ -18,6 +19,7 @@ NB_MODULE(_native, module) {
     rddlc::python::add_problem(module);
     rddlc::python::add_env_pool(module);
     rddlc::python::add_row_writer(module);
+    rddlc::python::add_feature_writer(module);
     rddlc::python::add_dictionary_reader(module);
     rddlc::python::add_dictionary_writer(module);
     rddlc::python::add_dictionary_stepper(module);
