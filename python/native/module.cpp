@@ -1,4 +1,5 @@
 // The native part of the Python package; users import python/rddlc/.
+#include "native/choice_writer.hpp"
 #include "native/derivatives.hpp"
 #include "native/dictionary_reader.hpp"
 #include "native/dictionary_stepper.hpp"
@@ -10,7 +11,6 @@
 #include "native/numpy_numbers.hpp"
 #include "native/painter.hpp"
 #include "native/problem.hpp"
-#include "native/row_writer.hpp"
 
 NB_MODULE(_native, module) {
     nanobind::set_leak_warnings(false);  // what a program keeps until its end is no mistake
@@ -18,7 +18,7 @@ NB_MODULE(_native, module) {
     rddlc::python::import_numpy();
     rddlc::python::add_problem(module);
     rddlc::python::add_env_pool(module);
-    rddlc::python::add_row_writer(module);
+    rddlc::python::add_choice_writer(module);
     rddlc::python::add_feature_writer(module);
     rddlc::python::add_dictionary_reader(module);
     rddlc::python::add_dictionary_writer(module);
