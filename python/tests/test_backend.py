@@ -92,6 +92,15 @@ class Agents(unittest.TestCase):
             found = kind(env.action_space, env.max_allowed_actions).evaluate(env, episodes=2, seed=1)
             self.assertTrue(np.isfinite(found["mean"]))
 
+    def test_random_agents_draw_the_same_numbers_as_on_pyrddlgym(self) -> None:
+        for name in ("MountainCar_ippc2023", "HVAC_ippc2023", "UAV_Mixed"):  # deterministic, with reals
+            instance = next(each for each in rddlc.problems() if each.name == name).instances[0]
+            returns = []
+            for env in (rddlc.make(name, instance, engine="interpreter"), pyRDDLGym.make(name, str(instance))):
+                agent = RandomAgent(env.action_space, env.max_allowed_actions, seed=3)
+                returns.append(agent.evaluate(env, episodes=1, seed=1)["mean"])
+            np.testing.assert_allclose(*returns, rtol=1e-6, err_msg=name)  # theirs are drawn as float32
+
     def test_names_of_pyrddlgyms_model_lead_to_ours(self) -> None:
         model = rddlc.make("HVAC_ippc2023", 1, engine="interpreter").model
         theirs = pyRDDLGym.make("HVAC_ippc2023", "1").model
