@@ -14,6 +14,7 @@ from pyRDDLGym.core.policy import NoOpAgent, RandomAgent
 
 import rddlc
 from rddlc.backend import RDDLSimulator
+from rddlc.environment import OF_PYRDDLGYM as ENVIRONMENTS_OF_PYRDDLGYM
 from rddlc.model import OF_PYRDDLGYM
 
 # Deterministic ones, with reals, bools, objects; and a partially observed one.
@@ -100,6 +101,15 @@ class Agents(unittest.TestCase):
                 agent = RandomAgent(env.action_space, env.max_allowed_actions, seed=3)
                 returns.append(agent.evaluate(env, episodes=1, seed=1)["mean"])
             np.testing.assert_allclose(*returns, rtol=1e-6, err_msg=name)  # theirs are drawn as float32
+
+    def test_names_of_pyrddlgyms_environments_lead_to_ours(self) -> None:
+        env = rddlc.make("HVAC_ippc2023", 1, engine="interpreter")
+        for name, ours in ENVIRONMENTS_OF_PYRDDLGYM.items():
+            self.assertTrue(hasattr(pyRDDLGym.make("HVAC_ippc2023", "1"), name), name)
+            with self.assertRaises(AttributeError) as refused:
+                getattr(env, name)
+            self.assertIn(ours, str(refused.exception))
+        self.assertFalse(hasattr(env, "no_such_thing"))
 
     def test_names_of_pyrddlgyms_model_lead_to_ours(self) -> None:
         model = rddlc.make("HVAC_ippc2023", 1, engine="interpreter").model

@@ -269,7 +269,7 @@ class Planners(unittest.TestCase):
     def test_options_that_cannot_be_are_refused(self) -> None:
         problem = problem_of_text(SURE)
         for options, pattern in (
-            ({"level": 3}, "'level'; there are .*levels"),
+            ({"level": 3}, "'level'; did you mean 'levels'"),
             ({"engine": "interpreter"}, "loaded already"),
             ({"horizon": -1}, "horizon is -1"),
             ({"most_reward": float("nan")}, "most_reward is nan"),
