@@ -18,7 +18,7 @@ struct Category {
     std::int64_t column, count, least;
 };
 
-// What a number from -1 to 1 stands for: a value between two bounds, or where one is infinite, one
+// A number from -1 to 1 stands for a value between two bounds, or where one is infinite, for one
 // that grows as sinh from `origin`, in steps of `unit` (Squash in translation/action_plan.py).
 struct Squash {
     double lower, upper, origin, unit;
@@ -44,7 +44,7 @@ struct Choices {
     std::vector<Category> categories;
     std::vector<Number> numbers;
     Changes changes;
-    bool box;  // categories are numbers, too, and come first: equal parts of -1 to 1
+    bool box;  // categories are also numbers, and come first: equal parts of -1 to 1
 };
 
 // It takes rows of int64 categories, or of float or double numbers, or a dictionary with both,
