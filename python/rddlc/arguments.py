@@ -122,8 +122,8 @@ def refuse_unknown(what: str, given: Iterable[Any], known: Sequence[str]) -> Non
     for name in given:
         if name not in known:
             close = get_close_matches(str(name), known, 1)
-            help = f"did you mean {close[0]!r}?" if close else f"there are {_listed(known)}"
-            raise ArgumentError(f"there is no {what} {shown(name)}; {help}")
+            hint = f"did you mean {close[0]!r}?" if close else f"there are {_listed(known)}"
+            raise ArgumentError(f"there is no {what} {shown(name)}; {hint}")
 
 
 def options_of_reset(options: Any, known: Sequence[str]) -> Mapping[str, Any]:

@@ -6,13 +6,35 @@ import unittest
 
 import numpy as np
 from gymnasium import spaces
-from support import TEXTS, example, problem_of, written
+from support import TEXTS, example, problem_of, problem_of_text, written
 
 import rddlc
 from rddlc.translation.action_plan import Squash, plan_of
 from rddlc.model import Model
 from rddlc.translation.readers import FlatReader
 from rddlc.versions import HAS_VECTORS
+
+
+EXTREME = """
+domain extreme {
+    pvariables {
+        tiny : { state-fluent, real, default = 0.0 };
+        huge : { state-fluent, real, default = 0.0 };
+        fixed : { state-fluent, real, default = 3.0 };
+        move : { action-fluent, bool, default = false };
+    };
+    cpfs { tiny' = tiny; huge' = huge; fixed' = fixed; };
+    reward = 0;
+    state-invariants {
+        tiny >= 0; tiny <= TINY; huge >= -HUGE; huge <= HUGE; fixed >= 3; fixed <= 3;
+    };
+}
+non-fluents nothing { domain = extreme; }
+instance extreme_1 {
+    domain = extreme; non-fluents = nothing;
+    max-nondef-actions = pos-inf; horizon = 5; discount = 1.0;
+}
+""".replace("TINY", f"0.{'0' * 60}1").replace("HUGE", f"1{'0' * 60}.0")  # RDDL's numbers have no exponent
 
 
 def features_of(model: Model, values: dict[str, np.ndarray], *, normalize: bool) -> np.ndarray:
@@ -66,6 +88,12 @@ class FlatObservations(unittest.TestCase):
                         values = twin.step(action)[0]
                         if terminated or truncated:
                             break
+
+    def test_ranges_that_no_float_has_are_not_normalized(self) -> None:
+        env = rddlc.make(problem_of_text(EXTREME), observations="flat", normalize=True)
+        shown, _ = env.reset(seed=1)
+        self.assertEqual(shown.tolist(), [0, 0, 3])
+        self.assertTrue(env.observation_space.contains(shown))
 
     @unittest.skipUnless(HAS_VECTORS, "vectors need gymnasium 1.0")
     def test_rows_and_last_rows_are_those_of_single_environments(self) -> None:

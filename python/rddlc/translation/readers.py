@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections import OrderedDict
 from typing import Any
 
@@ -18,6 +17,7 @@ from .protocols import ObservationReader
 
 Array = NDArray[Any]
 Records = NDArray[np.uint8]
+LEAST_SINGLE, MOST_SINGLE = (float(each) for each in (np.finfo(np.float32).tiny, np.finfo(np.float32).max))
 
 
 def dictionary_reader(
@@ -162,7 +162,8 @@ class FlatReader:
         self.is_view = not normalize and not any(each.objects for each in self._columns)
         self.names = [name for each in self._columns for name in each.names]
         lower, upper = np.array([limits for each in self._columns for limits in each.limits]).reshape(-1, 2).T
-        self.space = spaces.Box(lower.astype(np.float32), upper.astype(np.float32), dtype=np.float32)
+        with np.errstate(over="ignore"):  # a bound that no float32 has is infinite
+            self.space = spaces.Box(lower.astype(np.float32), upper.astype(np.float32), dtype=np.float32)
 
     def rows(self, *, copy: bool) -> Array:
         """(n, features)"""
@@ -210,8 +211,9 @@ class _ColumnFeatures:
         self.names = [f"{column.name}={each}" for each in self.objects] or [column.name]
         lower, upper = (0.0, 1.0) if self.objects else column.bounds
         self.middle, self.half = 0.0, 1.0
-        if normalize and math.isfinite(lower) and math.isfinite(upper) and lower < upper:
-            self.middle, self.half = (lower + upper) / 2, (upper - lower) / 2
+        middle, half = lower / 2 + upper / 2, upper / 2 - lower / 2
+        if normalize and LEAST_SINGLE <= half <= MOST_SINGLE:  # not if a bound is infinite
+            self.middle, self.half = middle, half
             lower, upper = -1.0, 1.0
         self.limits = [(lower, upper)] * len(self.names)
 
