@@ -227,11 +227,21 @@ using GivenNumber = std::tuple<std::int64_t, float, float, GivenSquash>;
 using GivenCategory = std::tuple<std::int64_t, std::int64_t, std::int64_t>;
 using GivenChanges = std::tuple<std::vector<std::int64_t>, std::vector<float>, std::vector<float>>;
 
-Number number_of(const GivenNumber& given) {
-    const auto& [column, lower, upper, squash] = given;
-    Number number{column, lower, upper, std::nullopt};
-    if (squash) number.squash = std::make_from_tuple<Squash>(*squash);
-    return number;
+Choices choices_of(const std::vector<GivenCategory>& categories,
+                   const std::vector<GivenNumber>& numbers, const GivenChanges& changes, bool box) {
+    const auto& [columns, values, defaults] = changes;
+    Choices choices{{}, {}, {columns, values, defaults}, box};
+    for (const auto& [column, count, least] : categories)
+        choices.categories.push_back({column, count, least});
+    for (const auto& [column, lower, upper, given] : numbers) {
+        std::optional<Squash> squash;
+        if (given) {
+            const auto& [least, most, origin, unit] = *given;
+            squash = Squash{least, most, origin, unit};
+        }
+        choices.numbers.push_back({column, lower, upper, squash});
+    }
+    return choices;
 }
 
 }  // namespace
@@ -244,11 +254,7 @@ void add_choice_writer(nb::module_& module) {
             "__init__",
             [](ChoiceWriter* self, EnvPool& batch, const std::vector<GivenCategory>& categories,
                const std::vector<GivenNumber>& numbers, const GivenChanges& changes, bool box) {
-                Choices choices{{}, {}, std::make_from_tuple<Changes>(changes), box};
-                for (const GivenCategory& each : categories)
-                    choices.categories.push_back(std::make_from_tuple<Category>(each));
-                for (const GivenNumber& each : numbers) choices.numbers.push_back(number_of(each));
-                new (self) ChoiceWriter(batch, std::move(choices));
+                new (self) ChoiceWriter(batch, choices_of(categories, numbers, changes, box));
             },
             nb::arg("batch"), nb::arg("categories"), nb::arg("numbers"), nb::arg("changes"),
             nb::arg("box"), nb::keep_alive<1, 2>(),
