@@ -23,8 +23,8 @@ PLANNERS = [
     ("plan:uct", DISCRETE),
     ("plan:gradient", REAL),
 ]
-HORIZON = 5
-FEW, MANY = 5_000, 205_000
+HORIZON = 40
+FEW, MANY = 5_000, 105_000
 
 
 def processor_seconds(words):

@@ -26,7 +26,10 @@ class Futures {
     void place(const std::byte* states, std::span<const std::int64_t> steps);
     // Stops the k-th after so many steps from here; no caller reads what the batch does with it
     // then.
-    void set_limit(std::size_t k, std::int64_t steps) { limits_[k] = steps; }
+    void set_limit(std::size_t k, std::int64_t steps) {
+        limits_[k] = steps;
+        has_limits_ = true;
+    }
     // A record for each, or a row of values.
     void step(const std::byte* actions);
     void step_values(const float* actions);
@@ -40,7 +43,7 @@ class Futures {
     std::int64_t stepped() const { return stepped_; }
     // The reward of the last step; 0 if the episode was over before.
     double reward(std::size_t k) const { return rewards_[k]; }
-    // The reward of the environment's own last step, and whether a limit ended it.
+    // Whether a limit has ended it, and the reward of its own last step if some have limits.
     double last_reward(std::size_t k) const { return last_rewards_[k]; }
     bool is_cut(std::size_t k) const { return cut_[k] != 0; }
     // The discounted sum since the beginning; -inf after a fault or a reward that is not finite.
@@ -50,6 +53,7 @@ class Futures {
     rddl_transition outputs();
     void look_at_causes();
     void take_step();
+    bool take_plain_step();
 
     const rddl_simulator& simulator_;
     solvers::BatchHandle batch_;
@@ -58,6 +62,7 @@ class Futures {
     std::vector<double> rewards_, last_rewards_, returns_;
     std::vector<std::uint8_t> causes_, running_, cut_;
     std::int64_t running_count_ = 0, stepped_ = 0;
+    bool has_limits_ = false;
     double discount_ = 1;
 };
 
