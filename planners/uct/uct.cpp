@@ -90,7 +90,7 @@ Uct::Uct(const PlannerContext& context, const UctOptions& options)
       actions_(finite_actions(simulator_, options.actions)),
       initial_(initial_of(options, actions_.count())),
       trees_(simulator_, affordable_lanes(options, options.lanes), context.horizon),
-      continuations_(simulator_, leaf_lanes(options, actions_.count()), context.horizon),
+      continuations_(simulator_, leaf_lanes(options, actions_.count()), context.horizon, true),
       most_bytes_(static_cast<std::size_t>(context.memory_limit) / decision_share),
       most_kept_bytes_(static_cast<std::size_t>(context.memory_limit) / kept_share),
       memories_(context.environments),
