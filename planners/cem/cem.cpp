@@ -38,7 +38,7 @@ std::size_t population_of(const PlannerContext& context, const CemOptions& optio
     return static_cast<std::size_t>(population);
 }
 
-// Of noise, of one plan after the other.
+// The correlations of noise, for one plan after the other.
 std::span<const double> correlations_of(const CemOptions& options) {
     static constexpr std::array<double, 4> mixture{0, 0.5, 0.8, 0.95};
     if (options.correlation < 0) return mixture;

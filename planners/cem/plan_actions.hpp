@@ -14,7 +14,7 @@ namespace rddlc::planners {
 
 class PlanActions {
   public:
-    // Of at most so many plans. `space` and `records` must outlive it.
+    // It writes at most so many plans at once. `space` and `records` must outlive it.
     PlanActions(const solvers::ActionSpace& space, const solvers::ActionRecords& records,
                 std::size_t most_plans);
 

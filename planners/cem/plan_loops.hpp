@@ -46,7 +46,7 @@ struct PlanLoops {
                         double* values);
 };
 
-// Those of this processor.
+// The loops of this processor.
 const PlanLoops& plan_loops();
 
 }  // namespace rddlc::planners

@@ -21,10 +21,10 @@ class PlanNoise {
     void restart() { is_first_ = true; }
     void next_step(RandomStream& stream);
 
-    // Of each plan a number with mean 0 and deviation 1, between -3 and 3: an autoregressive
+    // Each plan has a number with mean 0 and deviation 1, between -3 and 3: an autoregressive
     // process of sums of three uniform numbers. A search needs no tails.
     const float* numbers(std::size_t real) const { return numbers_.data() + real * plans_; }
-    // Of each plan a uniform number in 0 .. rank_count - 1. It is that of the step before with the
+    // Each plan has a uniform number in 0 .. rank_count - 1. It is that of the step before with the
     // probability of the correlation, else a new one: so ranks are uniform in each step.
     const std::int32_t* ranks(std::size_t rank) const { return ranks_.data() + rank * plans_; }
 

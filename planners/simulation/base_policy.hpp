@@ -23,8 +23,8 @@ class BasePolicy {
                std::span<const std::uint64_t> numbers);
     void begin(std::int64_t episode, std::int64_t step, std::int64_t horizon,
                std::span<const std::uint64_t> numbers);
-    // Writes action records of all lanes that run, before a step of all. What the others have has
-    // to be records, too.
+    // Writes action records of all lanes that run, before a step of all. The others have to
+    // hold records before.
     void act(Futures& futures, std::byte* actions, const solvers::Stops* stops);
     // The same for those that `wanted` says.
     void act(Futures& futures, std::span<const std::uint8_t> wanted, std::byte* actions,

@@ -89,7 +89,8 @@ bool Futures::take_plain_step() {
     for (std::size_t k = 0; k < lanes; ++k)
         ends = static_cast<std::uint8_t>(ends | (running_[k] * causes_[k]));
     if (ends != RDDL_RUNNING) return false;
-    // Of those that have ended the batch reports rewards of 0, but not of those that limits ended.
+    // The batch reports rewards of 0 for those that have ended, but not for those that limits
+    // ended.
     if (running_count_ < count())
         for (std::size_t k = 0; k < lanes; ++k) rewards_[k] = running_[k] ? rewards_[k] : 0;
     std::int64_t bad = 0;

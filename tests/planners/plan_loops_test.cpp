@@ -98,7 +98,7 @@ TEST(PlanLoops, GiveRealsTheirValues) {
             EXPECT_NEAR(values[k], expected, 1e-5 * (1 + std::abs(expected))) << numbers[k];
         }
     }
-    // What is the default as a float is the default itself.
+    // A value that is the default as a float is the default itself.
     const float middle = 0;
     double value = 0;
     plan_loops().real_values({Range::Free, false, -infinity, infinity, 1, 0.1, 0.1f, 0.1}, &middle,
