@@ -138,7 +138,7 @@ struct Simulator {
     template <class L>
     static void set_bare(const State<L>& state, const Action<L>& action, State<L>& next,
                          rddl::Context<L>& context) {
-        rddl::for_each_object(context, xpos_count * ypos_count, [&](auto& several, auto c_r) {
+        rddl::for_many_objects<xpos_count * ypos_count>(context, [&](auto& several, auto c_r) {
             rddl::elements(next.bare, c_r) = rddl::branch(
                 several, rddl::at(state.burning, c_r),
                 [&] { return rddl::sample::bernoulli(several, {0, c_r}, 0.15); },
@@ -180,7 +180,7 @@ struct Simulator {
     template <class L>
     static void set_burning(const State<L>& state, const Action<L>& action,
                             const Scratch<L>& scratch, State<L>& next, rddl::Context<L>& context) {
-        rddl::for_each_object_in_words(context, xpos_count * ypos_count, [&](auto&, auto c_r) {
+        rddl::for_many_objects<xpos_count * ypos_count>(context, [&](auto&, auto c_r) {
             const auto condition =
                 rddl::at(state.burning, c_r) && !rddl::at(action.douse, c_r) &&
                 !rddl::at(next.bare, c_r);

@@ -268,7 +268,7 @@ struct Loop {
     // The loop, with the loops right inside of it, may run over several objects at once: no
     // iteration needs another (passes/lanes/evaluate_together.hpp).
     bool several_at_once = false;
-    // Then: its values are bools alone, and a word holds those of many objects
+    // Then: its values are bools alone, and a register holds those of many objects
     // (passes/analyses/bool_words.hpp).
     bool as_words = false;
 };

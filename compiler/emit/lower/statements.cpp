@@ -137,14 +137,13 @@ void FunctionBody::statement(const ir::Loop& loop) {
 }
 
 // rddl::for_each_object(context, computer_count, [&](auto& several, auto x) { ... });
+// rddl::for_many_objects<cell_count>(context, [&](auto& several, auto c) { ... });
 void FunctionBody::over_several_objects(const ir::Loop& loop) {
     const auto before = expressions_.mark();
     const auto [nest, context, objects] = expressions_.enter(ir::nest_of(loop));
-    tree::Expression count = tree::word(expressions_.unit().size_of(program()[nest.variables[0]]));
+    std::string count = expressions_.unit().size_of(program()[nest.variables[0]]);
     for (const ir::VariableId variable : std::span(nest.variables).subspan(1))
-        count = tree::operation(
-            plain_operator(Operator::Multiply),
-            {std::move(count), tree::word(expressions_.unit().size_of(program()[variable]))});
+        count += " * " + expressions_.unit().size_of(program()[variable]);
 
     // Whether the context has a name is known when the body is.
     expressions_.uses().context = false;
@@ -153,12 +152,13 @@ void FunctionBody::over_several_objects(const ir::Loop& loop) {
     tree::Expressions parameters = {
         has_context ? tree::Expression{tree::Declared{"auto&", context}} : tree::word("auto&"),
         {tree::Declared{"auto", objects}}};
-    const char* const function =
-        loop.as_words ? "rddl::for_each_object_in_words" : "rddl::for_each_object";
-    statements_.push_back(
-        {tree::call(function, {tree::word("context"),
-                               std::move(count),
-                               {tree::Lambda{std::move(parameters), std::move(body)}}})});
+    tree::Expression lambda{tree::Lambda{std::move(parameters), std::move(body)}};
+    statements_.push_back({loop.as_words
+                               ? tree::call("rddl::for_many_objects<" + count + ">",
+                                            tree::list(tree::word("context"), std::move(lambda)))
+                               : tree::call("rddl::for_each_object",
+                                            tree::list(tree::word("context"), tree::word(count),
+                                                       std::move(lambda)))});
     expressions_.leave_nest();
     expressions_.return_to(before);
 }

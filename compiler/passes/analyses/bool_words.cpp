@@ -20,6 +20,22 @@ bool differs(const ir::Program& program, ir::NodeId id, const ir::Nest& nest) {
                                [&](ir::NodeId operand) { return differs(program, operand, nest); });
 }
 
+// Is known to be a probability: a constant, or the element of a table of constants that has the
+// place of its object.
+bool is_constant_probability(const ir::Program& program, ir::NodeId id, const ir::Nest& nest) {
+    const auto is_probability = [](const ir::Value& value) {
+        const double p = std::get<double>(value);
+        return p >= 0 && p <= 1;
+    };
+    if (const auto* constant = std::get_if<ir::Constant>(&program[id].form))
+        return is_probability(constant->value);
+    const auto* load = std::get_if<ir::Load>(&program[id].form);
+    return load && program[load->buffer].storage == ir::Storage::Constant &&
+           load->indices.size() == nest.variables.size() &&
+           ir::begins_with(program, load->indices, nest) &&
+           program[load->buffer].values.all_of(is_probability);
+}
+
 }  // namespace
 
 bool are_many(const ir::Program& program, const ir::Nest& nest) {
@@ -46,6 +62,11 @@ bool is_of_bools(const ir::Program& program, ir::NodeId id, const ir::Nest& nest
         [&](const ir::Apply& apply) { return are_of_bools(apply.operands); },
         [&](const ir::Select& select) {
             return are_of_bools({select.condition, select.then_value, select.else_value});
+        },
+        [&](const ir::Sample& sample) {
+            return sample.distribution == Distribution::Bernoulli &&
+                   ir::is_place_in(program, nest, sample.place.index) &&
+                   is_constant_probability(program, sample.parameters.front(), nest);
         },
         [](const auto&) { return false; });
 }

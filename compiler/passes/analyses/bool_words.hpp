@@ -1,5 +1,6 @@
-// Whether the values of a loop over objects are bools alone, so that one word holds them for 64
-// objects: connectives of elements of tables of bools, and of what is the same for all objects.
+// Whether the values of a loop over objects are bools alone, so that a register holds them for many
+// objects: connectives of elements of tables of bools, of what is the same for all objects, and of
+// draws with constant probabilities.
 #pragma once
 
 #include "ir/analysis.hpp"

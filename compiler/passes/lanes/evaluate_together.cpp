@@ -54,13 +54,12 @@ class Marking {
     }
     bool is_of_words(const ir::Loop& loop) const {
         const ir::Nest nest = ir::nest_of(loop);
-        return are_many(program_, nest) &&
-               std::ranges::all_of(*nest.body, [&](const ir::Statement& statement) {
-                   const auto* let = std::get_if<ir::Let>(&statement.form);
-                   const auto* store = std::get_if<ir::Store>(&statement.form);
-                   return (let && is_of_bools(program_, let->value, nest)) ||
-                          (store && is_of_bools(program_, store->value, nest));
-               });
+        return std::ranges::all_of(*nest.body, [&](const ir::Statement& statement) {
+            const auto* let = std::get_if<ir::Let>(&statement.form);
+            const auto* store = std::get_if<ir::Store>(&statement.form);
+            return (let && is_of_bools(program_, let->value, nest)) ||
+                   (store && is_of_bools(program_, store->value, nest));
+        });
     }
     // An int that is drawn, aggregated, or made from a real, such as a sign. C++ compilers put
     // other loops over ints into registers themselves.

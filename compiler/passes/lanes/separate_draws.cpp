@@ -44,7 +44,8 @@ class DrawSeparation {
     void separate(ir::Loop& loop, ir::Block& before) {
         const ir::Nest nest = ir::nest_of(loop);
         auto* const store = ir::only_statement<ir::Store>(ir::innermost_body(loop));
-        if (!store || !are_many(program_, nest)) return;
+        if (!store || !are_many(program_, nest) || is_of_bools(program_, store->value, nest))
+            return;
         draws_.clear();
         collect_draws(store->value, builder_.constant(true));
         if (draws_.empty() || draws_.size() > most_draws || draws_.contains(store->value)) return;

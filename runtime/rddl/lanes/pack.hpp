@@ -32,7 +32,8 @@ struct Mask {
     Mask() = default;
     RDDL_INLINE Mask(bool everywhere) : bits(everywhere ? static_cast<Bits>(~Bits{0}) : Bits{0}) {}
     template <class T>
-    Mask(T) = delete;  // numbers are not bools
+    requires std::is_arithmetic_v<T> Mask(T)
+    = delete;  // numbers are not bools
     static RDDL_INLINE Mask of_bits(std::uint64_t bits) {
         Mask mask;
         mask.bits = static_cast<Bits>(bits);

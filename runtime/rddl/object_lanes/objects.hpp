@@ -7,6 +7,7 @@
 #pragma once
 
 #include <rddl/lanes/simd.hpp>
+#include <rddl/lanes/simd_bytes.hpp>
 #include <rddl/lanes/simd_moves.hpp>
 #include <rddl/random/random.hpp>
 #include <rddl/values/bits.hpp>
@@ -286,17 +287,6 @@ inline constexpr int objects_at_once = 16;
 template <class R, class Body>
 RDDL_INLINE void for_each_object(Context<ScalarOf<R>>& context, Index count, Body&& body) {
     detail::for_each_of_several<objects_at_once>(context, count, body);
-}
-
-// The same for a body whose values are bools: one environment has those of 64 objects in a word.
-template <int n, class R, class Body>
-RDDL_INLINE void for_each_object_in_words(Context<Pack<n, R>>& context, Index count, Body&& body) {
-    for_each_object(context, count, body);
-}
-inline constexpr int bools_in_a_word = 64;
-template <class R, class Body>
-RDDL_INLINE void for_each_object_in_words(Context<ScalarOf<R>>& context, Index count, Body&& body) {
-    detail::for_each_of_several<bools_in_a_word>(context, count, body);
 }
 
 }  // namespace rddl

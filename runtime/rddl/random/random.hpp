@@ -117,6 +117,25 @@ RDDL_INLINE Lanes<R, n> uniform_at(Context<Pack<n, R>>& context, Place place) {
     return recent.numbers[place.index - recent.first];
 }
 
+// Whether a uniform number is below p, in the lanes of a mask. Where few lanes need their numbers,
+// they are generated lane by lane.
+template <int n, class R, class Probability>
+RDDL_INLINE Mask<n> uniform_below(Context<Pack<n, R>>& context, Place place, Mask<n> wanted,
+                                  const Probability& p) {
+    constexpr int few = n / 8;
+    if (__builtin_popcountll(wanted.bits) > few)
+        return wanted && uniform_at(context, place) < Lanes<R, n>(p);
+    Mask<n> below = wanted;
+    for_each_lane(wanted, [&](int lane) RDDL_INLINE_LAMBDA {
+        const auto numbers =
+            first_numbers<R, std::uint64_t>(context.step[lane], place.series, place.index / 2,
+                                            {context.key_low[lane], context.key_high[lane]});
+        const R u = place.index % 2 == 0 ? numbers.even : numbers.odd;
+        if (!(u < get_lane(p, lane))) below.set(lane, false);
+    });
+    return below;
+}
+
 namespace detail {
 
 // 0, 1, 2, ...

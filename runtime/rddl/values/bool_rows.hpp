@@ -199,10 +199,48 @@ RDDL_INLINE void store_masks(const std::array<BitColumns, n / 8>& columns, int c
 
 }  // namespace bit_matrix
 
+#ifdef RDDL_SIMD_AVX512
+// Rows of few bytes are read as one run of bytes, and a column has the bits that lie a row apart.
+inline constexpr std::int64_t widest_narrow_row = 16;
+
+// By distance: bits that lie so far apart, from bit 0 on.
+inline constexpr auto bits_apart = [] {
+    std::array<std::uint64_t, widest_narrow_row + 1> bits{};
+    for (std::size_t distance = 1; distance < bits.size(); ++distance)
+        for (std::size_t i = 0; i < 64; i += distance) bits[distance] |= std::uint64_t{1} << i;
+    return bits;
+}();
+// `count` bools of each of n rows, which have at most `widest_narrow_row` bytes.
+template <int n>
+RDDL_ALWAYS_INLINE void read_narrow_rows(const std::byte* rows, std::int64_t row_size,
+                                         std::int64_t count, Mask<n>* masks) {
+    const std::int64_t byte_count = (n - 1) * row_size + count;
+    for (std::int64_t k = 0; k < count; ++k) {
+        std::uint64_t column = 0;
+        int lanes = 0;
+        for (std::int64_t first = 0; first < byte_count; first += 64) {
+            const auto some = static_cast<int>(std::min<std::int64_t>(64, byte_count - first));
+            const std::int64_t phase = ((k - first) % row_size + row_size) % row_size;
+            const std::uint64_t own = bits_apart[static_cast<std::size_t>(row_size)] << phase;
+            column |= _pext_u64(simd::bits_of_bytes(rows + first, some), own) << lanes;
+            lanes += __builtin_popcountll(own);
+        }
+        masks[k] = Mask<n>::of_bits(column);
+    }
+}
+#endif
+
 // `count` bools of each of the first `present` rows; the others have false ones.
 template <int n>
 RDDL_ALWAYS_INLINE void read_bools(const std::byte* rows, std::int64_t row_size, int present,
                                    std::int64_t count, Mask<n>* masks) {
+#ifdef RDDL_SIMD_AVX512
+    // Where the compiler knows the rows, few columns of them are a few instructions.
+    constexpr std::int64_t most = 2 * widest_narrow_row;
+    if (__builtin_constant_p(count * row_size) && row_size <= widest_narrow_row &&
+        count * row_size <= most && present == n)
+        return read_narrow_rows(rows, row_size, count, masks);
+#endif
     for (std::int64_t first = 0; first < count; first += 64) {
         const auto column_count = static_cast<int>(std::min<std::int64_t>(64, count - first));
         const auto row = [&](int lane) RDDL_INLINE_LAMBDA {

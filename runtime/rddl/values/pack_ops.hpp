@@ -118,9 +118,10 @@ RDDL_INLINE Lanes<T, n> choose(Mask<n> condition, const Lanes<T, n>& a, const La
 }  // namespace detail
 
 template <int n, class A, class B>
-RDDL_INLINE auto select(Mask<n> condition, const A& a, const B& b) {
+requires std::is_same_v<LanesOf<A, n>, LanesOf<B, n>> RDDL_INLINE auto select(Mask<n> condition,
+                                                                              const A& a,
+                                                                              const B& b) {
     using Result = LanesOf<A, n>;
-    static_assert(std::is_same_v<Result, LanesOf<B, n>>);
     return detail::choose(condition, Result(a), Result(b));
 }
 template <class A, class B>

@@ -33,9 +33,16 @@ std::string loop_for(const std::string& cpf_of_on) {
 
 TEST(EvaluateTogether, TakesLoopsThatDrawOrGiveBools) {
     for (const char* cpf :
-         {"Bernoulli(P(?x, ?y))", "on(?x, ?y) | a", "if (a) then Bernoulli(0.3) else on(?x, ?y)",
-          "Normal(v(?x, ?y), 1.0) > 2.0", "v(?x, ?y) > 2.0"})
+         {"Normal(v(?x, ?y), 1.0) > 2.0", "v(?x, ?y) > 2.0", "Bernoulli(v(?x, ?y))",
+          "Bernoulli(if (a) then 0.25 else 0.5)"})
         EXPECT_EQ(loop_for(cpf), "for x in obj, several at once") << cpf;
+}
+
+// Draws with constant probabilities also.
+TEST(EvaluateTogether, KeepsBoolsAloneInRegisters) {
+    for (const char* cpf :
+         {"Bernoulli(P(?x, ?y))", "on(?x, ?y) | a", "if (a) then Bernoulli(0.3) else on(?x, ?y)"})
+        EXPECT_EQ(loop_for(cpf), "for x in obj, as words") << cpf;
 }
 
 TEST(EvaluateTogether, TakesLoopsOverRealsThatAreNotCheap) {

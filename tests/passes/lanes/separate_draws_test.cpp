@@ -29,12 +29,15 @@ const std::string neighbours =
 TEST(SeparateDraws, MakesThemBeforeWhatIsLeftInWords) {
     passes::Report report;
     const ir::Program program = with_draws_apart(
-        "if (ENTRY(?x, ?y, ?z, ?w)) then Bernoulli(0.5) else " + neighbours, report);
+        "if (ENTRY(?x, ?y, ?z, ?w)) then Bernoulli(if (go(?x)) then 0.2 else 0.5) else " +
+            neighbours,
+        report);
     EXPECT_EQ(report["loops whose draws are made before"], 1);
     const std::string text = step_text(program);
     EXPECT_NE(text.find("for x in obj, several at once\n"), text.npos) << text;
     EXPECT_NE(text.find("scratch.on-draw[x, y, z, w] = select(ENTRY[x, y, z, w], "
-                        "sample bernoulli@0[((x * 3 + y) * 3 + z) * 3 + w](0.5), false)\n"),
+                        "sample bernoulli@0[((x * 3 + y) * 3 + z) * 3 + w]("
+                        "select(element(action.go, on-places[x, y, z, w]), 0.2, 0.5)), false)\n"),
               text.npos)
         << text;
     EXPECT_NE(text.find("for x in obj, as words\n"), text.npos) << text;
@@ -42,11 +45,14 @@ TEST(SeparateDraws, MakesThemBeforeWhatIsLeftInWords) {
         << text;
 }
 
-// Where it takes most of the work to know which draws are needed, or little is left without them.
+// Where it takes most of the work to know which draws are needed, or little is left without them,
+// or registers of bools can make them.
 TEST(SeparateDraws, LeavesThemWhereTheyAre) {
+    const std::string draw = "Bernoulli(if (go(?x)) then 0.2 else 0.5)";
     for (const std::string& cpf :
-         {"if (" + neighbours + ") then Bernoulli(0.5) else on(?x, ?y, ?z, ?w)",
-          std::string("if (go(NEXT(?x))) then Bernoulli(0.5) else on(?x, ?y, ?z, ?w)"),
+         {"if (" + neighbours + ") then " + draw + " else on(?x, ?y, ?z, ?w)",
+          "if (go(NEXT(?x))) then " + draw + " else on(?x, ?y, ?z, ?w)",
+          "if (ENTRY(?x, ?y, ?z, ?w)) then Bernoulli(0.5) else " + neighbours,
           "Bernoulli(if (" + neighbours + ") then 0.2 else 0.5)"}) {
         passes::Report report;
         with_draws_apart(cpf, report);

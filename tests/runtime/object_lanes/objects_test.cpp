@@ -118,19 +118,15 @@ void expect_bools_at_places() {
     for (std::size_t i = 0; i < objects; ++i)
         places[i] = static_cast<Place>((11 * i + size - 1) % size);
     Context<Scalar> context = context_of_step(1);
-    std::array<bool, objects + 1> chosen{}, in_words{};
+    std::array<bool, objects + 1> chosen{};
     constexpr auto object_count = static_cast<Index>(objects);
     for_each_object(context, object_count,
                     [&](auto&, auto x) { elements(chosen, x) = at_places(on, x, places); });
-    for_each_object_in_words(context, object_count, [&](auto&, auto x) {
-        elements(in_words, x) = !at_places(on, x, places);
-    });
     for (std::size_t i = 0; i < objects; ++i) {
         EXPECT_EQ(chosen[i], on[places[i]]) << size << " " << i;
-        EXPECT_EQ(in_words[i], !on[places[i]]) << size << " " << i;
         EXPECT_EQ(element(on, static_cast<Index>(places[i])), on[places[i]]);
     }
-    EXPECT_FALSE(chosen[objects] || in_words[objects]);
+    EXPECT_FALSE(chosen[objects]);
 }
 
 TEST(Objects, ReadBoolsAtPlaces) {
@@ -144,41 +140,6 @@ TEST(Objects, ReadBoolsAtPlaces) {
     expect_bools_at_places<200, std::uint8_t, 31>();
     expect_bools_at_places<256, std::uint8_t, 300>();
     expect_bools_at_places<300, std::uint16_t, 100>();
-}
-
-// Numbers of objects with whole words and without, and tables that other loops have filled.
-template <std::size_t objects>
-void expect_words() {
-    std::array<bool, objects + 1> on{}, other{}, both{};
-    std::array<double, objects> level{};
-    for (std::size_t i = 0; i < objects; ++i) level[i] = static_cast<double>(i % 5);
-    constexpr auto object_count = static_cast<Index>(objects);
-    Context<Scalar> context = context_of_step(1);
-    for_each_object(context, object_count,
-                    [&](auto&, auto x) { elements(on, x) = at(level, x) > 2.0; });
-    for_each_object_in_words(context, object_count,
-                             [&](auto&, auto x) { elements(other, x) = !at(on, x); });
-    for_each_object_in_words(context, object_count, [&](auto&, auto x) {
-        elements(both, x) = branch(
-            at(on, x), [&] { return true; }, [&] { return at(other, x); });
-    });
-    for (std::size_t i = 0; i < objects; ++i) {
-        EXPECT_EQ(other[i], !(level[i] > 2.0)) << objects << " " << i;
-        EXPECT_TRUE(both[i]) << objects << " " << i;
-    }
-    EXPECT_FALSE(other[objects] || both[objects]);
-}
-
-TEST(Objects, HaveWordsOfBools) {
-    expect_words<1>();
-    expect_words<17>();
-    expect_words<30>();
-    expect_words<63>();
-    expect_words<64>();
-    expect_words<65>();
-    expect_words<100>();
-    expect_words<128>();
-    expect_words<151>();
 }
 
 // Each object aggregates elements that lie beside those of its neighbours: the same results as one

@@ -140,5 +140,30 @@ TEST(Flags, AreBytes) {
     }
 }
 
+#ifdef RDDL_SIMD_AVX512
+template <int n>
+void expect_narrow_rows() {
+    std::mt19937_64 random(3);
+    for (std::int64_t row_size = 1; row_size <= widest_narrow_row; ++row_size)
+        for (std::int64_t count = 1; count <= row_size; ++count) {
+            std::vector<std::byte> rows(static_cast<std::size_t>((n - 1) * row_size + count));
+            for (std::byte& byte : rows) byte = std::byte{random() % 3 == 0};
+            std::vector<Mask<n>> masks(static_cast<std::size_t>(count));
+            read_narrow_rows(rows.data(), row_size, count, masks.data());
+            for (int lane = 0; lane < n; ++lane)
+                for (std::int64_t k = 0; k < count; ++k)
+                    EXPECT_EQ(masks[static_cast<std::size_t>(k)][lane],
+                              rows[static_cast<std::size_t>(lane * row_size + k)] != std::byte{0})
+                        << row_size << " bytes, bool " << k << " of row " << lane;
+        }
+}
+
+TEST(Columns, OfFewBools) {
+    expect_narrow_rows<8>();
+    expect_narrow_rows<16>();
+    expect_narrow_rows<64>();
+}
+#endif
+
 }  // namespace
 }  // namespace rddl

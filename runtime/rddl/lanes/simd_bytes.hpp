@@ -1,0 +1,206 @@
+// Bytes of registers: to and from memory, by their places in tables, and as bits.
+#pragma once
+
+#include <rddl/lanes/simd.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <type_traits>
+
+namespace rddl::simd::inline RDDL_SIMD_LEVEL {
+
+// ---------------------------------------------------------------------------- bytes by place
+
+#ifdef __AVX512VBMI__
+namespace detail {
+
+// By the lower 7 bits of their places, those that are there.
+template <int size>
+[[gnu::always_inline]] inline std::uint64_t bits_of_chosen_bytes(const char* table,
+                                                                 std::uint64_t there,
+                                                                 __m512i places) {
+    const __m512i first = load_many_parts(table, size < 64 ? size : 64);
+    __m512i chosen;
+    if constexpr (size <= 64)
+        chosen = _mm512_maskz_permutexvar_epi8(there, places, first);
+    else
+        chosen = _mm512_maskz_permutex2var_epi8(there, first, places,
+                                                load_many_parts(table + 64, size - 64));
+    return _mm512_test_epi8_mask(chosen, chosen);
+}
+
+}  // namespace detail
+#elif defined(__AVX2__)
+namespace detail {
+
+// The bytes of a table of `size` <= 128 that have these places: 16 of the table at a time, from
+// which the other places take zero (adding 0x70 sets the highest bit of what is 16 or more).
+template <int size>
+[[gnu::always_inline]] inline __m256i chosen_bytes(const char* table, __m256i places) {
+    __m256i chosen = _mm256_setzero_si256();
+#pragma GCC unroll 8
+    for (int i = 0; i < size; i += 16) {
+        // The last ones overlap those before: a part would be loaded by way of the stack.
+        const int first = size < 16 || i + 16 <= size ? i : size - 16;
+        __m128i some = _mm_setzero_si128();
+        __builtin_memcpy(&some, table + first, size < 16 ? size : 16);
+        const __m256i from_first =
+            _mm256_sub_epi8(places, _mm256_set1_epi8(static_cast<char>(first)));
+        chosen = _mm256_or_si256(
+            chosen, _mm256_shuffle_epi8(_mm256_broadcastsi128_si256(some),
+                                        _mm256_adds_epu8(from_first, _mm256_set1_epi8(0x70))));
+    }
+    return chosen;
+}
+
+}  // namespace detail
+#endif
+
+// n bytes, in the parts in which store_bytes and store_as_bytes store them: processors are slow to
+// load what was stored in other parts. Zeros behind them.
+template <class V, int n>
+[[gnu::always_inline]] inline V load_bytes(const void* from) {
+    V values{};
+#ifdef RDDL_SIMD_AVX512
+    if constexpr (n < register_bytes) return reinterpret<V>(load_many_parts(from, n));
+#endif
+    __builtin_memcpy(&values, from, n);
+    return values;
+}
+// The same of constants, which are loaded as a whole.
+template <class V, int n>
+[[gnu::always_inline]] inline V load_constant_bytes(const void* from) {
+#ifdef RDDL_SIMD_AVX512
+    return reinterpret<V>(_mm512_maskz_loadu_epi8(~std::uint64_t{0} >> (64 - n), from));
+#else
+    return load_bytes<V, n>(from);
+#endif
+}
+template <int n, class V>
+[[gnu::always_inline]] inline void store_bytes(V values, void* to) {
+#ifdef RDDL_SIMD_AVX512
+    if constexpr (n < register_bytes) {
+        const auto store = [&]<int i>(std::integral_constant<int, i>)
+            __attribute__((always_inline)) {
+            if constexpr (i < n)
+                store_parts(
+                    static_cast<char*>(to) + i,
+                    _mm512_maskz_extracti32x4_epi32(0xF, reinterpret<__m512i>(values), i / 16),
+                    n - i < 16 ? n - i : 16);
+        };
+        store(std::integral_constant<int, 0>());
+        store(std::integral_constant<int, 16>());
+        store(std::integral_constant<int, 32>());
+        store(std::integral_constant<int, 48>());
+        return;
+    }
+#endif
+    __builtin_memcpy(to, &values, n);
+}
+
+// A bit for each byte of a register that is not 0; and the bytes of 0 and 1 for such bits.
+template <class V>
+[[gnu::always_inline]] inline std::uint64_t nonzero_bytes(V bytes) {
+#ifdef RDDL_SIMD_AVX512
+    return _mm512_test_epi8_mask(reinterpret<__m512i>(bytes), reinterpret<__m512i>(bytes));
+#else
+    return bits_of_bytes(&bytes, register_bytes);
+#endif
+}
+template <class V>
+[[gnu::always_inline]] inline V bytes_for_bits(std::uint64_t bits) {
+#ifdef RDDL_SIMD_AVX512
+    return reinterpret<V>(_mm512_maskz_set1_epi8(bits, 1));
+#else
+    V bytes;
+    store_as_bytes<register_bytes>(bits, &bytes, register_bytes);
+    return bytes;
+#endif
+}
+
+// The bytes of a table of `size` <= most_chosen_bytes that have these places.
+#if defined(__AVX512VBMI__)
+inline constexpr std::int64_t most_chosen_bytes = 256;
+template <std::int64_t size, class V>
+[[gnu::always_inline]] inline V chosen_bytes(const void* table, V bytes_of_places) {
+    constexpr __mmask64 all = ~std::uint64_t{0};
+    const auto places = reinterpret<__m512i>(bytes_of_places);
+    const auto part = [&](int first) __attribute__((always_inline)) {
+        const int rest = static_cast<int>(size) - first;
+        return load_many_parts(static_cast<const char*>(table) + first, rest < 64 ? rest : 64);
+    };
+    const auto chosen = [&]<int first, int rest>() __attribute__((always_inline)) {
+        if constexpr (rest <= 64)
+            return _mm512_maskz_permutexvar_epi8(all, places, part(first));
+        else
+            return _mm512_maskz_permutex2var_epi8(all, part(first), places, part(first + 64));
+    };
+    const __m512i in_first = chosen.template operator()<0, size>();
+    if constexpr (size <= 128)
+        return reinterpret<V>(in_first);
+    else
+        return reinterpret<V>(_mm512_mask_mov_epi8(in_first, _mm512_movepi8_mask(places),
+                                                   chosen.template operator()<128, size - 128>()));
+}
+#elif defined(__AVX2__)
+inline constexpr std::int64_t most_chosen_bytes = 128;
+template <std::int64_t size, class V>
+[[gnu::always_inline]] inline V chosen_bytes(const void* table, V places) {
+    constexpr int parts = register_bytes / 32;
+    __m256i part[parts];
+    __builtin_memcpy(part, &places, sizeof part);
+    for (__m256i& some : part)
+        some = detail::chosen_bytes<static_cast<int>(size)>(static_cast<const char*>(table), some);
+    __builtin_memcpy(&places, part, sizeof part);
+    return places;
+}
+#else
+inline constexpr std::int64_t most_chosen_bytes = 0;
+template <std::int64_t size, class V>
+V chosen_bytes(const void* table, V places) = delete;
+#endif
+
+// A bit for each of 0 < `count` <= 64 bytes of a table of `size` that is not 0: those with these
+// places.
+template <std::int64_t size, class Place>
+[[gnu::always_inline]] inline std::uint64_t bits_of_chosen_bytes(const void* table,
+                                                                 const Place* places, int count) {
+    const char* const bytes = static_cast<const char*>(table);
+    std::uint64_t bits = 0;
+    int k = 0;
+#ifdef __AVX512VBMI__
+    if constexpr (sizeof(Place) == 1) {
+        const std::uint64_t there = ~std::uint64_t{0} >> (64 - count);
+        const __m512i numbers = _mm512_maskz_loadu_epi8(there, places);
+        const std::uint64_t in_first =
+            detail::bits_of_chosen_bytes<(size < 128 ? size : 128)>(bytes, there, numbers);
+        if constexpr (size <= 128) return in_first;
+        const std::uint64_t in_second = detail::bits_of_chosen_bytes<(size > 128 ? size - 128 : 1)>(
+            bytes + 128, there, numbers);
+        const std::uint64_t is_second = _mm512_movepi8_mask(numbers);
+        return (in_first & ~is_second) | (in_second & is_second);
+    }
+#elif defined(__AVX2__)
+    if constexpr (sizeof(Place) == 1 && size <= 128) {
+        const auto chosen_bits = [&](__m256i numbers) __attribute__((always_inline)) {
+            const __m256i chosen = detail::chosen_bytes<static_cast<int>(size)>(bytes, numbers);
+            const int zero =
+                _mm256_movemask_epi8(_mm256_cmpeq_epi8(chosen, _mm256_setzero_si256()));
+            return std::uint64_t{~static_cast<std::uint32_t>(zero)};
+        };
+        for (; k + 32 <= count; k += 32)
+            bits |= chosen_bits(_mm256_loadu_si256(reinterpret_cast<const __m256i_u*>(places + k)))
+                    << k;
+        if (k + 16 <= count) {
+            const __m128i some = _mm_loadu_si128(reinterpret_cast<const __m128i_u*>(places + k));
+            bits |= (chosen_bits(_mm256_inserti128_si256(_mm256_setzero_si256(), some, 0)) & 0xFFFF)
+                    << k;
+            k += 16;
+        }
+    }
+#endif
+    for (; k < count; ++k) bits |= std::uint64_t{bytes[places[k]] != 0} << k;
+    return bits;
+}
+
+}  // namespace rddl::simd::inline RDDL_SIMD_LEVEL

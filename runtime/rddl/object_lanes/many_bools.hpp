@@ -1,0 +1,183 @@
+// Bools of many objects in vector registers.
+//
+// They lie there as they lie in tables: for one environment a byte of 0 or 1 for each object, for
+// packs the mask of each object's environments. So loading and storing them takes no conversion,
+// and a connective is one instruction for a whole register.
+#pragma once
+
+#include <rddl/lanes/pack.hpp>
+#include <rddl/lanes/simd.hpp>
+#include <rddl/lanes/simd_bytes.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <type_traits>
+#include <utility>
+
+namespace rddl::inline RDDL_SIMD_LEVEL {
+
+// The element of a register that holds an object's bool, and its value for true.
+template <class Bool>
+struct InRegister;
+template <>
+struct InRegister<bool> {
+    using Element = std::uint8_t;
+    static constexpr Element yes = 1;
+};
+template <int n>
+struct InRegister<Mask<n>> {
+    using Element = typename Mask<n>::Bits;
+    static constexpr Element yes = static_cast<Element>(~Element{0});
+};
+
+template <class T>
+struct RegisterOf {
+    typedef T type __attribute__((vector_size(simd::register_bytes)));
+};
+
+// The bools of n objects; elements behind them have any value.
+template <class Bool, int n>
+struct ManyBools {
+    using Element = typename InRegister<Bool>::Element;
+    using Vector = typename RegisterOf<Element>::type;
+    static constexpr Element yes = InRegister<Bool>::yes;
+    static constexpr int part_width = simd::register_bytes / static_cast<int>(sizeof(Element));
+    static constexpr int part_count = (n + part_width - 1) / part_width;
+
+    Vector part[part_count];
+
+    ManyBools() = default;
+    RDDL_INLINE ManyBools(bool everywhere) : ManyBools(filled(everywhere ? yes : Element{0})) {}
+    // The same mask for all objects.
+    template <int lanes>
+    requires std::is_same_v<Mask<lanes>, Bool> RDDL_INLINE ManyBools(Mask<lanes> everywhere)
+        : ManyBools(filled(everywhere.bits)) {}
+
+    template <class Operation, class... Operands>
+    static RDDL_INLINE ManyBools each(Operation operation, const Operands&... operands) {
+        ManyBools result;
+        for (int p = 0; p < part_count; ++p) result.part[p] = operation(operands.part[p]...);
+        return result;
+    }
+    // Makes each register by make.template operator()<part, count>(), `count` being that of the
+    // objects in it.
+    template <class Make>
+    static RDDL_INLINE ManyBools of_parts(Make make) {
+        ManyBools result;
+        for_each_part([&]<int p, int count>() RDDL_INLINE_LAMBDA {
+            result.part[p] = make.template operator()<p, count>();
+        });
+        return result;
+    }
+    template <class Body>
+    static RDDL_INLINE void for_each_part(Body body) {
+        [&]<std::size_t... p>(std::index_sequence<p...>) RDDL_INLINE_LAMBDA {
+            (body.template operator()<static_cast<int>(p), count_in(static_cast<int>(p))>(), ...);
+        }
+        (std::make_index_sequence<part_count>());
+    }
+
+    friend RDDL_INLINE ManyBools operator&&(const ManyBools& a, const ManyBools& b) {
+        return each([](Vector x, Vector y) { return x & y; }, a, b);
+    }
+    friend RDDL_INLINE ManyBools operator||(const ManyBools& a, const ManyBools& b) {
+        return each([](Vector x, Vector y) { return x | y; }, a, b);
+    }
+    friend RDDL_INLINE ManyBools operator!(const ManyBools& a) { return a != ManyBools(true); }
+    friend RDDL_INLINE ManyBools operator==(const ManyBools& a, const ManyBools& b) {
+        return !(a != b);
+    }
+    friend RDDL_INLINE ManyBools operator!=(const ManyBools& a, const ManyBools& b) {
+        return each([](Vector x, Vector y) { return x ^ y; }, a, b);
+    }
+    static RDDL_INLINE ManyBools select(const ManyBools& condition, const ManyBools& a,
+                                        const ManyBools& b) {
+        return each([](Vector c, Vector x, Vector y) { return (x & c) | (y & ~c); }, condition, a,
+                    b);
+    }
+
+  private:
+    static constexpr int count_in(int part) {
+        return part + 1 < part_count ? part_width : n - part * part_width;
+    }
+    static RDDL_INLINE ManyBools filled(Element everywhere) {
+        return each([everywhere] { return everywhere - Vector{}; });
+    }
+};
+
+template <class T>
+inline constexpr bool is_many_bools = false;
+template <class Bool, int n>
+inline constexpr bool is_many_bools<ManyBools<Bool, n>> = true;
+
+// ---------------------------------------------------------------------------------- memory
+
+// The bools of n objects that lie one after the other; no more is read or written.
+template <int n, class Bool>
+RDDL_INLINE ManyBools<Bool, n> load_many(const Bool* from) {
+    using Many = ManyBools<Bool, n>;
+    return Many::of_parts([&]<int p, int count>() RDDL_INLINE_LAMBDA {
+        constexpr int bytes = count * static_cast<int>(sizeof(Bool));
+        return simd::load_bytes<typename Many::Vector, bytes>(from + p * Many::part_width);
+    });
+}
+template <class Bool, int n>
+RDDL_INLINE void store_many(const ManyBools<Bool, n>& values, Bool* to) {
+    using Many = ManyBools<Bool, n>;
+    Many::for_each_part([&]<int p, int count>() RDDL_INLINE_LAMBDA {
+        constexpr int bytes = count * static_cast<int>(sizeof(Bool));
+        simd::store_bytes<bytes>(values.part[p], to + p * Many::part_width);
+    });
+}
+
+// Bools that all environments share.
+template <class Bool, int n>
+RDDL_INLINE ManyBools<Bool, n> spread_many(const bool* from) {
+    using Many = ManyBools<Bool, n>;
+    if constexpr (std::is_same_v<Bool, bool>) {
+        if (!__builtin_constant_p(from[0])) return load_many<n>(from);
+        return Many::of_parts([&]<int p, int count>() RDDL_INLINE_LAMBDA {
+            return simd::load_constant_bytes<typename Many::Vector, count>(from +
+                                                                           p * Many::part_width);
+        });
+    } else {
+        typedef std::int8_t Bytes __attribute__((vector_size(Many::part_width)));
+        return Many::of_parts([&]<int p, int count>() RDDL_INLINE_LAMBDA {
+            Bytes bytes{};
+            __builtin_memcpy(&bytes, from + p * Many::part_width, count);
+            return __builtin_convertvector(-bytes, typename Many::Vector);
+        });
+    }
+}
+
+namespace many_bools {
+
+template <class Vector, class Bool, class Place, std::size_t... i>
+RDDL_INLINE Vector chosen(const Bool* table, const Place* places, std::size_t count,
+                          std::index_sequence<i...>) {
+    const auto element = [&](std::size_t place) RDDL_INLINE_LAMBDA {
+        typename InRegister<Bool>::Element bits;
+        __builtin_memcpy(&bits, table + place, sizeof bits);
+        return bits;
+    };
+    return Vector{element(places[i < count ? i : 0])...};
+}
+
+}  // namespace many_bools
+
+// The elements of a table of `size` that have these places.
+template <int n, std::int64_t size, class Bool, class Place>
+RDDL_INLINE ManyBools<Bool, n> choose_many(const Bool* table, const Place* places) {
+    using Many = ManyBools<Bool, n>;
+    using Vector = typename Many::Vector;
+    return Many::of_parts([&]<int p, int count>() RDDL_INLINE_LAMBDA {
+        const Place* const first = places + p * Many::part_width;
+        if constexpr (sizeof(Bool) == 1 && sizeof(Place) == 1 && size <= simd::most_chosen_bytes)
+            return simd::chosen_bytes<size>(table, simd::load_constant_bytes<Vector, count>(first));
+        else
+            return many_bools::chosen<Vector>(table, first, count,
+                                              std::make_index_sequence<Many::part_width>());
+    });
+}
+
+}  // namespace rddl::inline RDDL_SIMD_LEVEL

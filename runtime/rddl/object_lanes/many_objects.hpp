@@ -1,0 +1,263 @@
+// Loops over objects whose values are bools alone, which lie in registers (many_bools.hpp).
+//
+// Emitted code runs them by for_many_objects, for one environment and for packs. Nothing in them
+// jumps: both branches of a condition are evaluated, and draws look for themselves which objects
+// need them.
+#pragma once
+
+#include <rddl/object_lanes/many_bools.hpp>
+#include <rddl/object_lanes/objects.hpp>
+#include <rddl/random/random.hpp>
+
+#include <array>
+#include <concepts>
+#include <cstddef>
+#include <cstdint>
+#include <type_traits>
+
+namespace rddl {
+
+// Named after the level of simd.hpp, as packs are.
+inline namespace RDDL_SIMD_LEVEL {
+
+// The objects [first, first + n), in environments of lane type L.
+template <int n, class L>
+struct ManyObjects {
+    Index first;
+    constexpr operator Index() const { return first; }
+};
+// The lane type of a loop over them.
+template <int n, class L>
+struct BoolsOfMany {
+    static constexpr int width = n;
+    using Bool = ManyBools<typename L::Bool, n>;
+};
+
+// The place where their bools are stored.
+template <class Bool, int n>
+struct ElementsOfMany {
+    Bool* first;
+    RDDL_INLINE void operator=(const ManyBools<Bool, n>& values) const {
+        store_many(values, first);
+    }
+};
+// The reals of many objects: those that are wanted are loaded.
+template <class R>
+struct RealsInMemory {
+    const R* first;
+};
+
+}  // namespace RDDL_SIMD_LEVEL
+
+template <int n, class L>
+struct Context<BoolsOfMany<n, L>> {
+    Context<L>& environments;
+    ManyBools<typename L::Bool, n> active;  // the objects, and environments, whose values are used
+};
+
+// --------------------------------------------------------------------------------- elements
+
+template <class Table, int n, class L>
+RDDL_INLINE auto at(const Table& table, const ManyObjects<n, L>& objects) {
+    const auto* const first = &detail::first_part<0>(table) + objects.first;
+    using Element = std::remove_cvref_t<decltype(*first)>;
+    if constexpr (std::is_floating_point_v<Element>)
+        return RealsInMemory<Element>{first};
+    else if constexpr (std::is_same_v<Element, bool>)
+        return spread_many<typename L::Bool, n>(first);
+    else
+        return load_many<n>(first);
+}
+template <class Table, int n, class L, class Places>
+RDDL_INLINE auto at_places(const Table& table, const ManyObjects<n, L>& objects,
+                           const Places& places) {
+    return choose_many<n, detail::Nested<Table>::count>(
+        &detail::first_part<0>(table), &detail::first_part<0>(places) + objects.first);
+}
+template <class Table, int n, class L>
+RDDL_INLINE auto elements(Table& table, const ManyObjects<n, L>& objects) {
+    return ElementsOfMany<typename L::Bool, n>{&detail::first_part<0>(table) + objects.first};
+}
+
+// ---------------------------------------------------------------------------------- choices
+
+template <class Condition, class A, class B>
+requires(is_many_bools<Condition> || is_many_bools<A> || is_many_bools<B>)  //
+    RDDL_INLINE auto select(const Condition& condition, const A& a, const B& b) {
+    using Many = std::conditional_t<is_many_bools<Condition>, Condition,
+                                    std::conditional_t<is_many_bools<A>, A, B>>;
+    return Many::select(condition, a, b);
+}
+
+template <class Bool, int n, std::invocable Then, class Else>
+RDDL_INLINE auto branch(const ManyBools<Bool, n>& condition, Then&& then_value, Else&& else_value) {
+    return select(condition, then_value(), else_value());
+}
+template <int n, class L, class Condition, class Then, class Else>
+RDDL_INLINE auto branch(Context<BoolsOfMany<n, L>>& context, const Condition& condition,
+                        Then&& then_value, Else&& else_value) {
+    using Many = ManyBools<typename L::Bool, n>;
+    const Many active = context.active, chosen = condition;
+    context.active = active && chosen;
+    const Many a = then_value();
+    context.active = active && !chosen;
+    const Many b = else_value();
+    context.active = active;
+    return select(chosen, a, b);
+}
+// Chains of else-ifs (ops.hpp), which compilers would else call with all registers in memory.
+template <class Bool, int n, std::invocable Then, class Next, class... Rest>
+requires(sizeof...(Rest) >= 2)  //
+    RDDL_INLINE auto branch(const ManyBools<Bool, n>& condition, Then&& then_value, Next&& next,
+                            Rest&&... rest) {
+    return branch(condition, then_value,
+                  [&]() RDDL_INLINE_LAMBDA { return branch(next(), rest...); });
+}
+template <int n, class L, class Condition, class Then, class Next, class... Rest>
+requires(sizeof...(Rest) >= 2)  //
+    RDDL_INLINE auto branch(Context<BoolsOfMany<n, L>>& context, const Condition& condition,
+                            Then&& then_value, Next&& next, Rest&&... rest) {
+    return branch(context, condition, then_value,
+                  [&]() RDDL_INLINE_LAMBDA { return branch(context, next(), rest...); });
+}
+
+// ------------------------------------------------------------------------------------ draws
+
+namespace detail {
+
+template <class R>
+RDDL_INLINE R reals_of(R everywhere, const SomeObjects<objects_at_once>&) {
+    return everywhere;
+}
+template <class R>
+RDDL_INLINE auto reals_of(const RealsInMemory<R>& reals,
+                          const SomeObjects<objects_at_once>& objects) {
+    return load_some(reals.first + objects.first, objects);
+}
+template <class Real>
+RDDL_INLINE const Real& real_of(const Real& everywhere, int) {
+    return everywhere;
+}
+template <class R>
+RDDL_INLINE R real_of(const RealsInMemory<R>& reals, int object) {
+    return reals.first[object];
+}
+
+// Which of 64 objects of one environment, from `first` on, draw a number below p: of those that are
+// wanted. The numbers are made for 16 neighbours at once.
+template <class R, class Probability>
+RDDL_INLINE std::uint64_t drawn_bits(const Context<ScalarOf<R>>& context, Place place, int first,
+                                     std::uint64_t wanted, const Probability& p) {
+    const philox::Schedule<philox::draw_rounds, std::uint64_t> schedule(
+        context.step, {context.key.low, context.key.high});
+    std::uint64_t drawn = 0;
+    for (int k = 0; k < 64; k += objects_at_once) {
+        const auto some = Mask<objects_at_once>::of_bits(wanted >> k);
+        if (!any(some)) continue;
+        const SomeObjects<objects_at_once> objects{first + k, 64 - __builtin_clzll(some.bits)};
+        Context<Objects<objects_at_once, R>> drawing{schedule, some};
+        const Place of_first(place.site, place.index + first + k, place.series);
+        const Mask<objects_at_once> below = uniform_at(drawing, of_first) < reals_of(p, objects);
+        drawn |= std::uint64_t{(below && some).bits} << k;
+    }
+    return drawn;
+}
+
+template <class R, int n, class Probability>
+RDDL_INLINE ManyBools<bool, n> drawn(Context<ScalarOf<R>>& context, Place place,
+                                     const ManyBools<bool, n>& wanted, const Probability& p) {
+    using Many = ManyBools<bool, n>;
+    constexpr int words = (n + 63) / 64;
+    std::array<std::uint64_t, words> bits{};
+    Many::for_each_part([&]<int part, int count>() RDDL_INLINE_LAMBDA {
+        constexpr int first = part * Many::part_width;
+        const std::uint64_t there = ~std::uint64_t{0} >> (64 - count);
+        bits[first / 64] |= (simd::nonzero_bytes(wanted.part[part]) & there) << first % 64;
+    });
+    for (std::size_t w = 0; w < words; ++w)
+        if (bits[w] != 0)
+            bits[w] = drawn_bits(context, place, static_cast<int>(64 * w), bits[w], p);
+    return Many::of_parts([&]<int part, int>() RDDL_INLINE_LAMBDA {
+        constexpr int first = part * Many::part_width;
+        return simd::bytes_for_bits<typename Many::Vector>(bits[first / 64] >> first % 64);
+    });
+}
+
+template <int lanes, class R, int n, class Probability>
+RDDL_INLINE ManyBools<Mask<lanes>, n> drawn(Context<Pack<lanes, R>>& context, Place place,
+                                            const ManyBools<Mask<lanes>, n>& wanted,
+                                            const Probability& p) {
+    std::array<Mask<lanes>, static_cast<std::size_t>(n)> masks;
+    store_many(wanted, masks.data());
+    for (int k = 0; k < n; ++k) {
+        Mask<lanes>& mask = masks[static_cast<std::size_t>(k)];
+        if (!any(mask)) continue;
+        const Place of_object(place.site, place.index + k, place.series);
+        mask = uniform_below(context, of_object, mask, real_of(p, k));
+    }
+    return load_many<n>(masks.data());
+}
+
+}  // namespace detail
+
+// Draws are made where they are wanted; elsewhere they are false. The compiler knows that p is a
+// probability.
+namespace sample {
+
+template <int n, class L, class Probability>
+RDDL_INLINE auto bernoulli(Context<BoolsOfMany<n, L>>& context, Place place, const Probability& p) {
+    return rddl::detail::drawn(context.environments, place, context.active, p);
+}
+template <int n, class L, class Probability>
+RDDL_INLINE auto valid_bernoulli(Context<BoolsOfMany<n, L>>& context, Place place,
+                                 const Probability& p) {
+    return rddl::detail::drawn(context.environments, place, context.active, p);
+}
+
+}  // namespace sample
+
+// ------------------------------------------------------------------------------------ loops
+
+namespace detail {
+
+// The objects that are in registers at once: of one environment all, unless they are very many; of
+// packs as many as one register holds.
+template <class Bool>
+inline constexpr int most_in_registers = ManyBools<Bool, 1>::part_width;
+template <>
+inline constexpr int most_in_registers<bool> = 256;
+
+template <class R>
+RDDL_INLINE bool active_in(const Context<ScalarOf<R>>&) {
+    return true;
+}
+template <int lanes, class R>
+RDDL_INLINE Mask<lanes> active_in(const Context<Pack<lanes, R>>& context) {
+    return context.active;
+}
+
+// All that the body calls becomes a part of it: registers are not passed between functions.
+template <int n, class L, class Body>
+[[gnu::flatten]] void for_these_objects(Context<L>& context, Index first, Body&& body) {
+    Context<BoolsOfMany<n, L>> many{context, active_in(context)};
+    body(many, ManyObjects<n, L>{first});
+}
+
+}  // namespace detail
+
+// Calls body(context, objects) for all of [0, count). The bools of few objects of one environment
+// are the bits of a mask, which takes fewer instructions than a nearly empty register.
+template <Index count, class L, class Body>
+RDDL_INLINE void for_many_objects(Context<L>& context, Body&& body) {
+    constexpr int at_once = detail::most_in_registers<typename L::Bool>;
+    constexpr int rest = static_cast<int>(count % at_once);
+    if constexpr (L::width == 1 && count <= objects_at_once) {
+        for_each_object(context, count, body);
+    } else {
+        for (Index first = 0; first < count - rest; first += at_once)
+            detail::for_these_objects<at_once>(context, first, body);
+        if constexpr (rest > 0) detail::for_these_objects<rest>(context, count - rest, body);
+    }
+}
+
+}  // namespace rddl

@@ -1,0 +1,122 @@
+// Bools of many objects in registers have the values and draws that they have with one object after
+// the other, for one environment and for packs. Also built for other instruction sets
+// (CMakeLists.txt).
+#include <rddl/object_lanes/many_objects.hpp>
+#include <rddl/simulator.hpp>
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+namespace rddl {
+namespace {
+
+template <class L>
+constexpr int lanes = L::width;
+
+template <class L>
+Context<L> context_of_lanes() {
+    if constexpr (lanes<L> == 1) {
+        return {stream_key(1, 2, 3), 4, {}};
+    } else {
+        typename L::Word low, high;
+        for (int lane = 0; lane < lanes<L>; ++lane) {
+            const StreamKey key = stream_key(1, static_cast<std::uint64_t>(lane), 3);
+            low.set(lane, key.low);
+            high.set(lane, key.high);
+        }
+        return Context<L>::of(low, high, typename L::Word{std::uint64_t{4}}, true);
+    }
+}
+
+// A pattern that differs between objects and lanes.
+template <class L>
+typename L::Bool bool_at(std::size_t i) {
+    typename L::Bool result{false};
+    for (int lane = 0; lane < lanes<L>; ++lane)
+        set_lane(result, lane, (i * 7 + static_cast<std::size_t>(lane) * 5) % 11 < 4);
+    return result;
+}
+
+template <class L, std::size_t n>
+struct Tables {
+    // The one behind the last is not touched.
+    std::array<typename L::Bool, n + 1> on{}, chosen{}, drawn{}, drawn_everywhere{};
+};
+
+template <std::size_t size>
+constexpr auto constants = [] {
+    std::array<bool, size> bools{};
+    for (std::size_t i = 0; i < size; ++i) bools[i] = i % 3 == 0 || i % 7 == 2;
+    return bools;
+}();
+
+// Objects in loops over several at once and in loops over many.
+template <class L, std::size_t n, std::size_t size, class Places>
+void expect_the_same(const Places& places) {
+    std::array<typename L::Bool, size> from;
+    for (std::size_t i = 0; i < size; ++i) from[i] = bool_at<L>(i);
+    std::array<typename L::Element, n> chance;
+    for (std::size_t i = 0; i < n; ++i) chance[i] = static_cast<typename L::Element>(i % 6) / 5;
+    const typename L::Bool flag = bool_at<L>(3);
+    const auto body = [&](Tables<L, n>& to) {
+        return [&](auto& several, auto x) {
+            elements(to.on, x) = select(at(constants<n>, x), !at_places(from, x, places), flag);
+            elements(to.chosen, x) = branch(
+                flag && at(constants<n>, x), [&] { return true; },
+                [&] { return flag != at(constants<n>, x); }, [&] { return false; },
+                [&] { return at_places(from, x, places) == flag; });
+            elements(to.drawn, x) = branch(
+                several, at_places(from, x, places) && at(constants<n>, x),
+                [&] {
+                    return sample::valid_bernoulli(several, {0, x}, at(chance, x));
+                },
+                [&] { return flag; });
+            elements(to.drawn_everywhere, x) = sample::bernoulli(several, {1, x, 2}, 0.25);
+        };
+    };
+    Tables<L, n> expected, result;
+    Context<L> context = context_of_lanes<L>(), same_context = context_of_lanes<L>();
+    for_each_object(context, n, body(expected));
+    for_many_objects<n>(same_context, body(result));
+    const auto expect = [](const auto& a, const auto& b) {
+        for (std::size_t i = 0; i <= n; ++i)
+            for (int lane = 0; lane < lanes<L>; ++lane)
+                EXPECT_EQ(get_lane(a[i], lane), get_lane(b[i], lane))
+                    << n << " objects, object " << i << ", lane " << lane;
+    };
+    expect(expected.on, result.on);
+    expect(expected.chosen, result.chosen);
+    expect(expected.drawn, result.drawn);
+    expect(expected.drawn_everywhere, result.drawn_everywhere);
+}
+
+template <class L, std::size_t n, std::size_t size, class Place>
+void expect_the_same() {
+    std::array<Place, n> places;
+    for (std::size_t i = 0; i < n; ++i) places[i] = static_cast<Place>((11 * i + size - 1) % size);
+    expect_the_same<L, n, size>(places);
+}
+
+// Full registers and parts of them, and tables that registers can look up and greater ones.
+TEST(ManyObjects, OfOneEnvironment) {
+    expect_the_same<Scalar, 5, 4, std::uint8_t>();
+    expect_the_same<Scalar, 17, 64, std::uint8_t>();
+    expect_the_same<Scalar, 64, 128, std::uint8_t>();
+    expect_the_same<Scalar, 100, 192, std::uint8_t>();
+    expect_the_same<Scalar, 257, 256, std::uint8_t>();
+    expect_the_same<Scalar, 300, 300, std::uint16_t>();
+    expect_the_same<ScalarOf<float>, 72, 100, std::uint8_t>();
+}
+TEST(ManyObjects, OfPacks) {
+    expect_the_same<Pack<8>, 100, 72, std::uint8_t>();
+    expect_the_same<Pack<16>, 33, 130, std::uint8_t>();
+    expect_the_same<Pack<64>, 3, 33, std::uint8_t>();
+    expect_the_same<Pack<64>, 16, 300, std::uint16_t>();
+    expect_the_same<Pack<64, float>, 21, 21, std::uint8_t>();
+}
+
+}  // namespace
+}  // namespace rddl
