@@ -53,6 +53,12 @@ std::string engine(const Unit& unit) {
     return start + ">";
 }
 
+std::string action_bools(const Unit& unit) {
+    if (!unit.tests_action_bools) return "";
+    return "    // The bytes of the action's bools are tested where they are read.\n"
+           "    static constexpr bool tests_action_bools = true;\n";
+}
+
 std::string simulator(const Unit& unit, const DetailsUnit* details) {
     const cpp::StepFunctions step = cpp::step_functions(unit);
     return fill_slots(cpp::templates::simulator,
@@ -62,6 +68,7 @@ std::string simulator(const Unit& unit, const DetailsUnit* details) {
                        {"records", cpp::records(unit)},
                        {"aliases", cpp::record_aliases(unit)},
                        {"partially_observed", unit.program.partially_observed() ? "true" : "false"},
+                       {"action_bools", action_bools(unit)},
                        {"reset", cpp::reset_function(unit)},
                        {"step", step.step},
                        {"reward", cpp::reward_function(unit)},

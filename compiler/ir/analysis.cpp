@@ -308,6 +308,11 @@ void append_roots(const Statement& statement, std::vector<NodeId>& roots) {
             roots.push_back(store.value);
         },
         [&](const Loop& loop) { append_roots(loop.body, roots); },
+        [&](const Scatter& scatter) {
+            roots.push_back(scatter.condition);
+            roots.insert(roots.end(), scatter.indices.begin(), scatter.indices.end());
+            roots.push_back(scatter.value);
+        },
         [&](const Call& call) {
             const std::vector<NodeId> operands = operands_of(call);
             roots.insert(roots.end(), operands.begin(), operands.end());
@@ -438,6 +443,7 @@ std::vector<const Block*> blocks_of(const Program& program) {
 bool fills_tables(const Block& block) {
     bool fills = false;
     for_each_statement<Store>(block, [&](const Store&) { fills = true; });
+    for_each_statement<Scatter>(block, [&](const Scatter&) { fills = true; });
     for_each_statement<Call>(block, [&](const Call&) { fills = true; });
     return fills;
 }

@@ -70,6 +70,7 @@ class BlockCost {
                 [&](const Loop& loop) {
                     collect_stores(loop.body, inside(place, loop.variable, times_of(loop)));
                 },
+                [&](const Scatter& scatter) { stored_[scatter.target] = place; },
                 [&](const Call& call) { stored_[call.output.buffer] = place; });
         }
     }
@@ -98,6 +99,19 @@ class BlockCost {
                                : loop.several_at_once ? objects_at_once
                                                       : 1;
         return std::ceil(size_of(program_, loop.variable) / at_once);
+    }
+    // Words of bools show which ones are true: those of the initial state, one at least.
+    void add(const Scatter& scatter, Place place) {
+        const double size = size_of(program_, scatter.visited);
+        const double words =
+            (size + static_cast<double>(program_[scatter.target].count())) / bools_at_once;
+        pay(std::ceil(words), place, &PackCost::block);
+        const Place visit = inside(place, scatter.visited, 1);
+        const double entries = size_of(program_, scatter.entry) / size;
+        const Place each = inside(visit, scatter.entry, std::max(1.0, entries));
+        for (const NodeId index : scatter.indices) add(index, each);
+        add(scatter.value, each);
+        pay(1, each, &PackCost::block);
     }
     // It reads its tables and fills its output.
     void add(const Call& call, Place place) {

@@ -191,7 +191,26 @@ void Evaluator::run(const Block& block, Frame& frame) const {
                     run(loop.body, frame);
                 }
             },
+            [&](const Scatter& form) { scatter(form, frame); },
             [&](const Call& form) { call(form, frame); });
+    }
+}
+
+void Evaluator::scatter(const Scatter& form, Frame& frame) const {
+    const Origin origin = origins_[form.target.index];
+    std::fill_n(frame.records_.begin[origin.record] + origin.offset,
+                (*program_)[form.target].count(), std::byte{0});
+    for (std::int64_t i = 0; i < (*program_)[form.visited].size; ++i) {
+        frame.set(form.visited, i);
+        if (!value<bool>(form.condition, frame)) continue;
+        const auto bound = [&](std::int64_t row) {
+            return std::get<std::int64_t>((*program_)[form.rows].values[row]);
+        };
+        for (std::int64_t entry = bound(i); entry < bound(i + 1); ++entry) {
+            frame.set(form.entry, entry);
+            if (value<bool>(form.value, frame))
+                write(element(form.target, form.indices, frame), true);
+        }
     }
 }
 

@@ -109,6 +109,7 @@ class Evaluator {
     std::byte* element(BufferId id, const std::vector<NodeId>& indices, Frame& frame) const;
     rddl::Place place(const std::optional<Place>& place, Frame& frame) const;
     void store(const Store& store, Frame& frame) const;
+    void scatter(const Scatter& scatter, Frame& frame) const;
     void let(const Let& let, Frame& frame) const;
     void call(const Call& call, Frame& frame) const;
     template <class Callee>

@@ -8,6 +8,8 @@
 // used inside the statement or reduction that binds it, and not bound again there (several loops
 // side by side may bind the same variable); types fit; each site is used by one node or call; the
 // right operand of And, Or and Implies cannot fault; buffers are read after they are computed.
+//
+// Over 400 lines: readers of the representation find all of it here.
 #pragma once
 
 #include "model/table.hpp"
@@ -173,8 +175,8 @@ struct Apply {
     std::optional<Place> place;  // exactly for operators that may fault
     bool operator==(const Apply&) const = default;
 };
-// The parts of a Select that emitted code evaluates. A branch that is not taken is evaluated only if
-// that does no harm.
+// The parts of a Select that emitted code evaluates. A branch that is not taken is evaluated only
+// if that does no harm.
 enum class Evaluated : std::uint8_t {
     Branch,    // the branch that is taken; in packs those that a lane takes
     PackBoth,  // the branch that is taken; in packs both
@@ -272,6 +274,18 @@ struct Loop {
     // (passes/analyses/bool_words.hpp).
     bool as_words = false;
 };
+// Fills a table of bools by the few that are true of another one. All its elements are false but
+// those at `indices` for which there are a visited object and an entry of its row of a sparse
+// table with a true condition and a true value: which of them are evaluated makes no difference.
+struct Scatter {
+    BufferId target;              // Scratch, Bool
+    VariableId visited;           // all objects whose condition is true
+    NodeId condition;             // the element of a table of bools of one dimension at `visited`
+    VariableId entry;             // from rows[visited] up to rows[visited + 1]
+    BufferId rows;                // constant ints
+    std::vector<NodeId> indices;  // of the target, from `visited` and `entry`
+    NodeId value;                 // Bool; neither faults nor draws
+};
 // A part of a buffer: the leading dimensions have indices, the others are passed whole.
 struct TableView {
     BufferId buffer;
@@ -290,7 +304,7 @@ struct Call {
     std::optional<Place> place;  // exactly for draws; the elements are draws of one place
 };
 struct Statement {
-    std::variant<Let, Store, Loop, Call> form;
+    std::variant<Let, Store, Loop, Scatter, Call> form;
 };
 
 // A function that the user gives in C++ (--extern).

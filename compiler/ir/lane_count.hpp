@@ -7,14 +7,16 @@
 
 namespace rddlc::ir {
 
-// The numbers that suitable_lane_count returns. rddl/batches.cpp has the code for them.
+// The numbers that suitable_lane_count returns, beside 1 for no packs. rddl/batches.cpp has the
+// code for them.
 inline constexpr std::array suitable_lane_counts = {16, 64};
 
 // The bools of a pack are the bits of one number, so a connective takes the same time for 64
 // environments as for 16. Ints and reals take as many registers as their lanes need, and those of
 // 64 lanes do not stay in registers. So a pack has 64 lanes where steps compute with bools nearly
 // alone, if the nearest cache holds the action records of 64 environments. Draws do not count: as a
-// rule few lanes need them. docs/lanes.md has the measurements.
+// rule few lanes need them. A pack reads all of its action records: where a step reads few bools of
+// many, each environment takes less time alone. docs/lanes.md has the measurements.
 int suitable_lane_count(const Program& program);
 
 }  // namespace rddlc::ir

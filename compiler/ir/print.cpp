@@ -260,6 +260,20 @@ class Printer {
         writer_.dedent();
     }
 
+    void print(const Scatter& scatter) {
+        const std::string rows = program_[scatter.rows].name,
+                          visited = program_[scatter.visited].name;
+        writer_.line(fmt::format("fill {} over true[{}]({})", element(scatter.target, {}),
+                                 binding(scatter.visited), expression(scatter.condition)));
+        writer_.indent();
+        writer_.line(fmt::format("for {} in {}[{}] .. {}[{} + 1]", program_[scatter.entry].name,
+                                 rows, visited, rows, visited));
+        writer_.indent();
+        writer_.line(element(scatter.target, scatter.indices) +
+                     " ||= " + expression(scatter.value));
+        writer_.dedent();
+        writer_.dedent();
+    }
     void print(const Call& call) {
         std::vector<std::string> arguments;
         for (NodeId scalar : call.scalars) arguments.push_back(expression(scalar));

@@ -24,6 +24,10 @@ void change_tables(Block& block, const std::function<void(BufferId&)>& change) {
         match(
             statement.form, [](Let&) {}, [&](Store& store) { change(store.target); },
             [&](Loop& loop) { change_tables(loop.body, change); },
+            [&](Scatter& scatter) {
+                change(scatter.target);
+                change(scatter.rows);
+            },
             [&](Call& call) {
                 for (TableView& input : call.inputs) change(input.buffer);
                 change(call.output.buffer);
@@ -83,6 +87,11 @@ void change_roots(Block& block, const Change& change) {
                 change(store.value);
             },
             [&](Loop& loop) { change_roots(loop.body, change); },
+            [&](Scatter& scatter) {
+                change(scatter.condition);
+                change_all(scatter.indices, change);
+                change(scatter.value);
+            },
             [&](Call& call) {
                 for (TableView& input : call.inputs) change_all(input.indices, change);
                 change_all(call.scalars, change);

@@ -145,6 +145,13 @@ class Verifier {
                             "there is no variable {}", loop.variable.index);
                     ids_are_known(loop.body);
                 },
+                [&](const Scatter& scatter) {
+                    for (const BufferId buffer : {scatter.target, scatter.rows})
+                        id_is_known(buffer);
+                    for (const VariableId variable : {scatter.visited, scatter.entry})
+                        require(variable.index < program_.variables.size(),
+                                "there is no variable {}", variable.index);
+                },
                 [&](const Call& call) { ids_are_known(call); });
         }
     }
@@ -490,6 +497,8 @@ class Verifier {
     std::set<BufferId> filled_by(const Statement& each) {
         std::set<BufferId> filled;
         for_each_statement<Store>({each}, [&](const Store& store) { filled.insert(store.target); });
+        for_each_statement<Scatter>({each},
+                                    [&](const Scatter& scatter) { filled.insert(scatter.target); });
         for_each_statement<Call>({each}, [&](const Call& call) {
             for (BufferId written : written_buffers(call)) defined_.erase(written);
             filled.insert(call.output.buffer);
@@ -515,6 +524,7 @@ class Verifier {
             statement.form, [&](const Let& form) { let(form, scope, readable); },
             [&](const Store& form) { store(form, scope, readable); },
             [&](const Loop& form) { loop(form, scope, readable); },
+            [&](const Scatter& form) { scatter(form, scope, readable); },
             [&](const Call& form) { call(form, scope, readable); });
     }
 
@@ -539,6 +549,31 @@ class Verifier {
         require(scope.variables.insert(form.variable).second, "'{}' is bound inside itself",
                 program_[form.variable].name);
         for (const Statement& each : form.body) statement(each, scope, readable);
+    }
+
+    void scatter(const Scatter& form, Scope scope, const StorageSet& readable) {
+        const Buffer& target = program_[form.target];
+        const Buffer& rows = program_[form.rows];
+        const Variable& visited = program_[form.visited];
+        require(target.storage == Storage::Scratch && target.scalar == Scalar::Bool,
+                "'{}' is not filled by those that are true", target.name);
+        require(rows.storage == Storage::Constant && rows.scalar == Scalar::Int &&
+                    rows.shape == std::vector{visited.size + 1},
+                "'{}' does not hold the rows of '{}'", rows.name, visited.name);
+        require(are_indices(target, form.indices), "the indices of '{}' do not fit", target.name);
+        const auto* element = std::get_if<Load>(&program_[form.condition].form);
+        require(element && element->indices.size() == 1 &&
+                    program_[element->indices.front()].form ==
+                        Node{Scalar::Int, Index{form.visited}}.form,
+                "the condition of '{}' is no element at '{}'", target.name, visited.name);
+        require(type(form.condition) == Scalar::Bool && type(form.value) == Scalar::Bool,
+                "the values that '{}' joins are no bools", target.name);
+        for (const VariableId variable : {form.visited, form.entry})
+            require(scope.variables.insert(variable).second, "'{}' is bound inside itself",
+                    program_[variable].name);
+        for (NodeId index : form.indices) use(index, scope, readable);
+        use(form.condition, scope, readable);
+        use(form.value, scope, readable);
     }
 
     void call(const Call& form, const Scope& scope, const StorageSet& readable) {

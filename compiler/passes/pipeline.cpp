@@ -13,6 +13,7 @@
 #include "passes/aggregations/skip_zero_terms.hpp"
 #include "passes/aggregations/tabulate_counts.hpp"
 #include "passes/aggregations/tabulate_thresholds.hpp"
+#include "passes/aggregations/visit_true.hpp"
 #include "passes/arithmetic/compare_magnitudes.hpp"
 #include "passes/arithmetic/fast_math.hpp"
 #include "passes/arithmetic/find_ranges.hpp"
@@ -144,6 +145,12 @@ constexpr Pass in_order[] = {
      "a draw from weights that are one expression of different objects is one over the objects",
      {"tabulate_thresholds"},
      "weights that tables and small ints decide are gone"},
+    {"visit_true",
+     Phase::Aggregations,
+     visit_true,
+     "where few bools are true, aggregations visit those",
+     {"index_directly"},
+     "an equality is better than a table; and the passes below take aggregations apart"},
     {"factor_aggregations",
      Phase::Aggregations,
      factor_aggregations,

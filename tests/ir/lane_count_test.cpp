@@ -51,11 +51,20 @@ TEST_F(LaneCountTest, DrawsDoNotCount) {
 }
 
 TEST_F(LaneCountTest, ActionsOfManyLanesMustFitIntoTheCache) {
-    const std::vector<Definition> step = {w.fill(w.next_running, w.c, connectives(3))};
+    const std::vector<Definition> step = {w.fill(w.next_running, w.c, connectives(60))};
     w.program.buffers[w.reboot.index].shape = {512};
     EXPECT_EQ(lanes_of(step), 64);
     w.program.buffers[w.reboot.index].shape = {513};
     EXPECT_EQ(lanes_of(step), 16);
+}
+
+// A step that reads few of very many bools takes longer in packs, which read them all.
+TEST_F(LaneCountTest, ActionsThatAreReadInPartAreLeftToSingleEnvironments) {
+    const std::vector<Definition> step = {w.fill(w.next_running, w.c, connectives(3))};
+    w.program.buffers[w.reboot.index].shape = {300};
+    EXPECT_EQ(lanes_of(step), 64);
+    w.program.buffers[w.reboot.index].shape = {4000};
+    EXPECT_EQ(lanes_of(step), 1);
 }
 
 // Both costs count the same work, but loops over several objects at once.

@@ -125,10 +125,12 @@ Expression Expressions::lower(const ir::Node& node, const ir::Search& search) {
 // i)".
 Expression Expressions::lower(const ir::Node&, const ir::Element& element) {
     if (!several_)
-        return tree::call("rddl::element", {record(element.buffer), index(element.place)});
+        return tested(element.buffer,
+                      tree::call("rddl::element", {record(element.buffer), index(element.place)}));
     const auto& places = std::get<ir::Load>(unit_.program[element.place].form);
-    return tree::call("rddl::at_places",
-                      {record(element.buffer), word(several_->objects), record(places.buffer)});
+    return tested(element.buffer,
+                  tree::call("rddl::at_places", {record(element.buffer), word(several_->objects),
+                                                 record(places.buffer)}));
 }
 
 Expression Expressions::lower(const ir::Node&, const ir::Bits& bits) {
@@ -373,7 +375,19 @@ tree::Statement Expressions::external_call(const ir::Call& call) {
     return {tree::call(function, std::move(arguments))};
 }
 
+// "rddl::is_true(action.p[x])" where bytes are tested one by one.
+Expression Expressions::tested(ir::BufferId buffer, Expression element) const {
+    const ir::Buffer& of = unit_.program[buffer];
+    const bool is_byte = of.storage == ir::Storage::Action && of.scalar == ir::Scalar::Bool;
+    if (!is_byte || !unit_.tests_action_bools) return element;
+    return tree::call("rddl::is_true", list(std::move(element)));
+}
+
 Expression Expressions::lower(const ir::Node&, const ir::Load& load) {
+    return tested(load.buffer, element_of(load));
+}
+
+Expression Expressions::element_of(const ir::Load& load) {
     const std::span<const ir::NodeId> indices = load.indices;
     switch (load.gather) {
         case ir::Gather::Adjacent:

@@ -102,6 +102,8 @@ class Expressions {
     // The same, but the names stay taken.
     void forget(Mark mark);
 
+    tree::Expression table(ir::BufferId buffer) { return record(buffer); }
+
     Uses& uses() { return uses_; }
     const Unit& unit() const { return unit_; }
 
@@ -140,7 +142,9 @@ class Expressions {
     tree::Expression range(const ir::Reduce& reduce);
     tree::Expression of_objects(const char* function, tree::Expression table,
                                 std::span<const ir::NodeId> indices);
+    tree::Expression element_of(const ir::Load& load);
     tree::Expression element_of_row(const ir::Load& load);
+    tree::Expression tested(ir::BufferId buffer, tree::Expression element) const;
     tree::Expressions all_of(std::span<const ir::NodeId> operands);
     // The context and the place of a draw or a fault.
     tree::Expressions place(const ir::Place& place);

@@ -163,6 +163,35 @@ void FunctionBody::over_several_objects(const ir::Loop& loop) {
     expressions_.return_to(before);
 }
 
+// rddl::visit_true(scratch.at, state.near, ROAD_rows, [&](rddl::Index x, rddl::Index entry,
+//                                                         const Bool& is_there) { ... });
+void FunctionBody::statement(const ir::Scatter& scatter) {
+    const auto before = expressions_.mark();
+    const auto& few = std::get<ir::Load>(program()[scatter.condition].form);
+    tree::Expressions arguments = {expressions_.target(scatter.target, {}),
+                                   expressions_.table(few.buffer),
+                                   expressions_.table(scatter.rows)};
+    const auto index = [&](ir::VariableId variable) {
+        return tree::Expression{tree::Declared{"rddl::Index", expressions_.enter(variable)}};
+    };
+    tree::Expressions parameters = {index(scatter.visited), index(scatter.entry)};
+    const std::string is_there = expressions_.claim("is_there");
+    parameters.push_back(
+        {tree::Declared{"const " + expressions_.type(ir::Scalar::Bool) + "&", is_there}});
+    tree::Block body = inner(1, [&] {
+        const Use use{line_width};
+        prepare(use, scatter.value);
+        const tree::Expression reached = tree::operation(
+            plain_operator(Operator::And), {tree::word(is_there), value(use, scatter.value)});
+        const tree::Expression element = expressions_.target(scatter.target, scatter.indices);
+        statements_.push_back({tree::Assign{
+            element, tree::operation(plain_operator(Operator::Or), {element, reached})}});
+    });
+    arguments.push_back({tree::Lambda{std::move(parameters), std::move(body)}});
+    statements_.push_back({tree::call("rddl::visit_true", std::move(arguments))});
+    expressions_.return_to(before);
+}
+
 void FunctionBody::statement(const ir::Call& call) {
     statements_.push_back(expressions_.lower(call));
 }

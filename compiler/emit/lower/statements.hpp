@@ -29,6 +29,7 @@ class FunctionBody {
     void statement(const ir::Let& let);
     void statement(const ir::Store& store);
     void statement(const ir::Loop& loop);
+    void statement(const ir::Scatter& scatter);
     void over_several_objects(const ir::Loop& loop);
     void statement(const ir::Call& call);
 

@@ -1,6 +1,7 @@
 #include "emit/lower/unit.hpp"
 
 #include "emit/cpp/literals.hpp"
+#include "ir/action_bools.hpp"
 #include "support/match.hpp"
 
 #include <algorithm>
@@ -29,7 +30,8 @@ Unit::Unit(const ir::Program& the_program, const Sources& the_sources,
       names(names_of(the_program)),
       properties(ir::all_properties(the_program)),
       uniform_ints(the_program.nodes.size(), false),
-      contains_branch(the_program.nodes.size(), false) {
+      contains_branch(the_program.nodes.size(), false),
+      tests_action_bools(ir::tests_action_bools(the_program)) {
     for (std::size_t index = 0; index < program.nodes.size(); ++index) {
         const ir::Node& node = program.nodes[index];
         const std::vector<ir::NodeId> operands = ir::operands_of(node);

@@ -23,6 +23,7 @@ struct Unit {
     std::vector<ir::Properties> properties;  // by NodeId
     std::vector<bool> uniform_ints;          // by NodeId; is_uniform tells
     std::vector<bool> contains_branch;       // by NodeId: it branches, or has what does inside
+    bool tests_action_bools;                 // ir/action_bools.hpp
 
     const ir::Properties& properties_of(ir::NodeId id) const { return properties[id.index]; }
 

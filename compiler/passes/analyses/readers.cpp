@@ -50,6 +50,15 @@ class ReaderCounting {
                     variables_.insert(loop.variable);
                     visit(loop.body, times * size(loop.variable), read);
                 },
+                [&](const ir::Scatter& scatter) {
+                    variables_.insert(scatter.visited);
+                    variables_.insert(scatter.entry);
+                    const double entries = size(scatter.entry);
+                    for (ir::NodeId index : scatter.indices) visit(index, entries, read);
+                    visit(scatter.condition, size(scatter.visited), read);
+                    visit(scatter.value, entries, read);
+                    readers_[scatter.target.index].functions = true;
+                },
                 [&](const ir::Call& call) {
                     for (ir::NodeId operand : ir::operands_of(call)) visit(operand, times, read);
                     for (const auto& input : call.inputs)

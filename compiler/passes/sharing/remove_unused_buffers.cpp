@@ -80,6 +80,7 @@ class Pruning {
             statement.form, [&](const ir::Let& let) { return bool{is_named_[let.local.index]}; },
             [&](const ir::Store& store) { return bool{is_needed_[store.target.index]}; },
             [](const ir::Loop&) { return true; },
+            [&](const ir::Scatter& scatter) { return bool{is_needed_[scatter.target.index]}; },
             [&](const ir::Call& call) {
                 return is_needed_[call.output.buffer.index] || ir::is_draw(call.callee);
             });
@@ -88,6 +89,8 @@ class Pruning {
             roots, [&](ir::NodeId root) { return properties_[root.index].may_fault; });
         if (!is_needed && !may_fault) return false;
         for (const ir::NodeId root : roots) reach(root);
+        if (const auto* scatter = std::get_if<ir::Scatter>(&statement.form))
+            is_needed_[scatter->rows.index] = true;
         if (const auto* call = std::get_if<ir::Call>(&statement.form)) {
             for (const ir::TableView& input : call->inputs) is_needed_[input.buffer.index] = true;
         }
@@ -130,6 +133,8 @@ std::vector<bool> used_buffers(const ir::Program& program) {
     }
     for (const ir::Block* block : ir::blocks_of(program)) {
         for (const ir::BufferId written : ir::written_buffers(*block)) used[written.index] = true;
+        ir::for_each_statement<ir::Scatter>(
+            *block, [&](const ir::Scatter& scatter) { used[scatter.rows.index] = true; });
         ir::for_each_statement<ir::Call>(*block, [&](const ir::Call& call) {
             for (const ir::TableView& input : call.inputs) used[input.buffer.index] = true;
         });

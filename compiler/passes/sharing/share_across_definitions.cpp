@@ -2,7 +2,6 @@
 
 #include "ir/call.hpp"
 #include "ir/cost_model.hpp"
-#include "ir/cost_model.hpp"
 #include "ir/fill_table.hpp"
 #include "ir/rewrite.hpp"
 #include "support/match.hpp"
@@ -77,6 +76,7 @@ class DefinitionSharing {
                     visit(loop.body, user,
                           times * static_cast<double>(program_[loop.variable].size));
                 },
+                [](const ir::Scatter&) {},  // reads what few need
                 [&](const ir::Call& call) {
                     for (ir::NodeId operand : ir::operands_of(call)) use_root(operand);
                 });

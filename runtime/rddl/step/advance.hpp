@@ -41,6 +41,12 @@ constexpr const auto& action_columns(const Blocks<L>& blocks) {
         return *blocks.action_columns;
 }
 
+template <Engine E>
+inline constexpr bool takes_bools_as_given = [] {
+    if constexpr (requires { E::tests_action_bools; }) return E::tests_action_bools;
+    return false;
+}();
+
 // `room` is for a block that is not a row.
 template <Engine E, class L>
 RDDL_ALWAYS_INLINE const std::byte* action_of_block(const E& engine, const Blocks<L>& blocks,
@@ -50,7 +56,8 @@ RDDL_ALWAYS_INLINE const std::byte* action_of_block(const E& engine, const Block
     const std::int64_t first = b * L::width * columns.row_size;
     if constexpr (std::is_same_v<L, Scalar>) {
         if (actions.block) return actions.block;
-        if (has_plain_bools(columns, actions.rows + first)) return actions.rows + first;
+        if (takes_bools_as_given<E> || has_plain_bools(columns, actions.rows + first))
+            return actions.rows + first;
     }
     if (actions.block)
         copy_action(engine, actions.block, room);

@@ -89,6 +89,8 @@ struct Compiled {
     static constexpr auto state_columns = known_columns<L, problem, RDDL_STATE>(problem.state_size);
     static constexpr auto action_columns =
         known_columns<L, problem, RDDL_ACTION>(problem.action_size);
+    // The emitted code takes the bools of actions as callers give them: any byte but 0 is true.
+    static constexpr bool tests_action_bools = requires { Simulator::tests_action_bools; };
     // Callers get all bytes of the records of one environment.
     static constexpr bool shows_padding =
         L::width == 1 && (has_padding(problem, RDDL_STATE, problem.state_size) ||

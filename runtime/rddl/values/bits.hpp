@@ -63,6 +63,15 @@ RDDL_INLINE const auto& element(const Table& table, Index place) {
     return detail::first_element(table)[place];
 }
 
+// Whether a byte that a caller has given for a bool is not 0; in packs they are masks already.
+RDDL_ALWAYS_INLINE bool is_true(const bool& given) {
+    return *reinterpret_cast<const unsigned char*>(&given) != 0;
+}
+template <int n>
+RDDL_INLINE Mask<n> is_true(const Mask<n>& given) {
+    return given;
+}
+
 // ------------------------------------------------------------------------------- bit by bit
 
 constexpr std::int64_t bit_and(std::int64_t a, std::int64_t b) {

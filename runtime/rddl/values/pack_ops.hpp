@@ -393,10 +393,13 @@ RDDL_BROADCAST(hypot)
 RDDL_BROADCAST(atan2)
 #undef RDDL_BROADCAST
 
-// See the power of scalars: by far the most frequent exponent is a constant 2.
+// See the power of scalars: by far the most frequent exponents are a constant 2 and 0.5.
 template <std::floating_point R, int n>
 RDDL_INLINE Lanes<R, n> power(const Lanes<R, n>& base, std::type_identity_t<R> exponent) {
-    return exponent == R{2} ? base * base : power(base, Lanes<R, n>(exponent));
+    if (exponent == R{2}) return base * base;
+    if constexpr (std::is_same_v<R, double>)
+        if (exponent == 0.5) return detail::root_power(base);
+    return power(base, Lanes<R, n>(exponent));
 }
 template <std::floating_point R, int n>
 Lanes<R, n> power(std::type_identity_t<R> base, const Lanes<R, n>& exponent) {

@@ -13,6 +13,7 @@
 #include <rddl/values/ops.hpp>
 #include <rddl/values/pack_ops.hpp>
 #include <rddl/values/reductions.hpp>
+#include <rddl/values/tables.hpp>
 
 #include <algorithm>
 #include <array>
@@ -91,6 +92,30 @@ RDDL_INLINE T sum_over_true(Context<L>& context, const std::array<Mask<width>, n
             if (any(row[i])) add(i);
     }
     return total;
+}
+
+// Makes all of the target false, and calls mark(x, entry, is_true) for each entry of the rows of
+// all x that are true, in packs of those that are true in one of the environments.
+template <class Target, std::size_t n, class Rows, class Mark>
+RDDL_INLINE void visit_true(Target& target, const std::array<bool, n>& row, const Rows& rows,
+                            Mark&& mark) {
+    assign(target, false);
+    detail::for_each_word(row, [&](Index first, std::uint64_t bits) {
+        for (; bits != 0; bits &= bits - 1) {
+            const Index x = first + __builtin_ctzll(bits);
+            for (Index entry = rows[x]; entry < rows[x + 1]; ++entry) mark(x, entry, true);
+        }
+    });
+}
+template <class Target, std::size_t n, int width, class Rows, class Mark>
+RDDL_INLINE void visit_true(Target& target, const std::array<Mask<width>, n>& row, const Rows& rows,
+                            Mark&& mark) {
+    assign(target, false);
+    for (Index x = 0; x < static_cast<Index>(n); ++x) {
+        const Mask<width> is_true = row[static_cast<std::size_t>(x)];
+        if (!any(is_true)) continue;
+        for (Index entry = rows[x]; entry < rows[x + 1]; ++entry) mark(x, entry, is_true);
+    }
 }
 
 }  // namespace rddl

@@ -218,6 +218,29 @@ TEST(Accuracy, MakesPowersExactThatAreIntegers) {
     }
 }
 
+// Also in packs whose other lanes have other exponents.
+TEST(Accuracy, OfFirstPowersAndOfRootsIsThatOfRealsAndRoots) {
+    using Reals = Lanes<double, 8>;
+    Random random(11);
+    for (int i = 0; i < 10'000; ++i) {
+        const double base = std::abs(any_argument(random));
+        if (std::isnan(base)) continue;
+        ASSERT_EQ(power(base, 0.5), std::sqrt(base)) << base;
+        ASSERT_EQ(power(base, 1.0), base);
+        ASSERT_EQ(power(Reals{-base}, 1.0)[2], -base);
+        ASSERT_EQ(power(Reals{base}, 0.5)[3], std::sqrt(base)) << base;
+        double exponents[8] = {2.0, 0.5, 1.0, 0.5, 3.0, 0.5, 0.0, -1.0};
+        const Reals mixed = power(Reals{base}, Reals::load(exponents));
+        for (int lane = 0; lane < 8; ++lane)
+            ASSERT_EQ(mixed[lane], power(base, exponents[lane])) << base << " " << exponents[lane];
+    }
+    for (const double base : {0.0, -0.0, infinity, -infinity}) {
+        ASSERT_EQ(bits_of(power(base, 0.5)), bits_of(std::pow(base, 0.5))) << base;
+        ASSERT_EQ(bits_of(power(Reals{base}, 0.5)[1]), bits_of(std::pow(base, 0.5))) << base;
+    }
+    ASSERT_TRUE(std::isnan(power(-1.0, 0.5)));
+}
+
 // ------------------------------------------------------------------------ special arguments
 
 // Near whole multiples of the divisor the rounded quotient may be one too great.

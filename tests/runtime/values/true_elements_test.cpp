@@ -98,5 +98,53 @@ TEST(TrueElements, AreVisitedAlone) {
     EXPECT_EQ(visited, 369);
 }
 
+// Each x has entries for the elements that are x + 0, ..., x + x mod 3 places on.
+TEST(VisitTrue, MarksTheEntriesOfTheRowsOfTrueElements) {
+    constexpr std::size_t n = 70;
+    std::array<std::int64_t, n + 1> rows{};
+    for (std::size_t x = 0; x < n; ++x) rows[x + 1] = rows[x] + static_cast<std::int64_t>(x % 3);
+    const auto reached = [&](Index x, Index entry) {
+        return (static_cast<std::size_t>(x + 5 * (entry - rows[static_cast<std::size_t>(x)]))) % n;
+    };
+    for (unsigned pattern = 0; pattern < 20; ++pattern) {
+        constexpr int width = 16;
+        std::array<Mask<width>, n> masks{}, of_masks;
+        std::array<std::array<bool, n>, width> expected{};
+        for (int lane = 0; lane < width; ++lane) {
+            std::array<bool, n> row{}, of_row;
+            for (std::size_t x = 0; x < n; ++x) {
+                row[x] = (x * 7 + pattern * 13 + static_cast<unsigned>(lane)) % (pattern + 1) == 0;
+                masks[x].set(lane, row[x]);
+                if (!row[x]) continue;
+                for (Index entry = rows[x]; entry < rows[x + 1]; ++entry)
+                    expected[static_cast<std::size_t>(lane)]
+                            [reached(static_cast<Index>(x), entry)] = true;
+            }
+            of_row.fill(true);  // what was there does not count
+            visit_true(of_row, row, rows, [&](Index x, Index entry, bool is_true) {
+                bool& element = of_row[reached(x, entry)];
+                element = element || is_true;
+            });
+            EXPECT_EQ(of_row, expected[static_cast<std::size_t>(lane)]);
+        }
+        of_masks.fill(Mask<width>{true});
+        visit_true(of_masks, masks, rows, [&](Index x, Index entry, const Mask<width>& is_true) {
+            Mask<width>& element = of_masks[reached(x, entry)];
+            element = element || is_true;
+        });
+        for (int lane = 0; lane < width; ++lane)
+            for (std::size_t x = 0; x < n; ++x)
+                EXPECT_EQ(of_masks[x][lane], expected[static_cast<std::size_t>(lane)][x]);
+    }
+}
+
+TEST(IsTrue, TakesAnyByteButZero) {
+    std::array<unsigned char, 3> bytes = {0, 1, 0x82};
+    const bool* const bools = reinterpret_cast<const bool*>(bytes.data());
+    EXPECT_FALSE(is_true(bools[0]));
+    EXPECT_TRUE(is_true(bools[1]));
+    EXPECT_TRUE(is_true(bools[2]));
+}
+
 }  // namespace
 }  // namespace rddl

@@ -81,23 +81,39 @@ RDDL_ALWAYS_INLINE R rare_power(R base, R exponent, R of_magnitude) {
     return select(exponent == 0.0 || base == 1.0, R{1.0}, result);
 }
 
-// The power if not all exponents are 2.
+// The power with exponent 0.5: the nearest double to the root, where IEEE's pow differs by its zero
+// and by infinite bases.
+template <class R>
+RDDL_ALWAYS_INLINE R root_power(R base) {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    const R magnitude = select(base < 0.0, R{infinity - infinity}, base + 0.0);
+    return sqrt(select(base == -infinity, R{infinity}, magnitude));
+}
+
+// The power if the exponents are not all 2, nor all 1, nor all 0.5.
 template <class R>
 R any_power(R base, R exponent) {
+    const auto roots = exponent == 0.5;
+    if (any(roots))
+        return select(roots, root_power(base), any_power(base, select(roots, R{1.0}, exponent)));
     const R result = power_of_positive(absolute(base), exponent);
-    const auto squares = exponent == 2.0;
+    const auto firsts = exponent == 1.0, squares = exponent == 2.0;
     const auto ordinary = base > 0.0 && base <= greatest_real && exponent == exponent;
-    const R chosen = select(squares, base * base, result);
+    const R chosen = select(firsts, base, select(squares, base * base, result));
     if (!any(!ordinary)) return chosen;
-    return select(ordinary || squares, chosen, rare_power(base, exponent, result));
+    return select(ordinary || firsts || squares, chosen, rare_power(base, exponent, result));
 }
 
 }  // namespace detail
 
-// A constant 2 is by far the most frequent exponent.
+// A constant 2 is by far the most frequent exponent, before 0.5, and 1 where distributions take the
+// reciprocal of a shape.
 template <RealLanes R>
 RDDL_ALWAYS_INLINE R power(R base, R exponent) {
-    return any(!(exponent == 2.0)) ? detail::any_power(base, exponent) : base * base;
+    if (!any(!(exponent == 2.0))) return base * base;
+    if (!any(!(exponent == 1.0))) return base;
+    if (!any(!(exponent == 0.5))) return detail::root_power(base);
+    return detail::any_power(base, exponent);
 }
 
 }  // namespace rddl

@@ -1,0 +1,71 @@
+#include "passes/aggregations/visit_true.hpp"
+
+#include "texts.hpp"
+
+namespace rddlc {
+namespace {
+
+// A vehicle among 20 places that form a chain, and bools for all pairs of them.
+Problem chain(const std::string& cpfs) {
+    Problem problem{.pvariables =
+                        "NEXT(obj, obj) : { non-fluent, bool, default = false };\n"
+                        "at(obj) : { state-fluent, bool, default = false };\n"
+                        "moved : { state-fluent, bool, default = false };\n"
+                        "free(obj) : { state-fluent, bool, default = true };\n"
+                        "move(obj, obj) : { action-fluent, bool, default = false };",
+                    .cpfs = cpfs + "\nfree'(?o) = free(?o);",
+                    .init_state = "at(b2);"};
+    for (int i = 1; i < 20; ++i)
+        problem.non_fluents += "NEXT(b" + std::to_string(i) + ", b" + std::to_string(i + 1) + "); ";
+    return problem;
+}
+
+std::string step_of(const ir::Program& program) {
+    const std::string text = ir::print(program);
+    const std::size_t begin = text.find("\nstep\n") + 1;
+    return text.substr(begin, text.find("\nreward", begin) - begin);
+}
+
+TEST(VisitTrue, VisitsTheRowsOfThoseThatAreTrue) {
+    passes::Report report;
+    const ir::Program program = valid(passes::visit_true(
+        grounded_with_many(chain(
+            "moved' = exists_{?o : obj, ?p : obj} [move(?o, ?p) ^ at(?o) ^ NEXT(?o, ?p) ^ "
+            "~moved];\n"
+            "at'(?o) = if (exists_{?p : obj} [move(?p, ?o) ^ at(?p) ^ NEXT(?p, ?o)]) then true\n"
+            "    else at(?o) ^ ~exists_{?p : obj} [move(?o, ?p) ^ at(?o) ^ NEXT(?o, ?p)];")),
+        report));
+    EXPECT_EQ(step_of(program), R"(step
+    fill scratch.at-any over true[p in obj](state.at[p])
+        for entry in NEXT-rows[p] .. NEXT-rows[p + 1]
+            scratch.at-any[NEXT-o[entry]] ||= action.move[p, NEXT-o[entry]]
+    fill scratch.at-any-2 over true[o in obj](state.at[o])
+        for entry in NEXT-rows[o] .. NEXT-rows[o + 1]
+            scratch.at-any-2[o] ||= action.move[o, NEXT-o[entry]]
+    for o in obj
+        next.at[o] = select(scratch.at-any[o], true, state.at[o] && !scratch.at-any-2[o])
+    for o in obj
+        next.free[o] = state.free[o]
+    fill scratch.moved-any over true[o in obj](state.at[o])
+        for entry in NEXT-rows[o] .. NEXT-rows[o + 1]
+            scratch.moved-any ||= !state.moved && action.move[o, NEXT-o[entry]]
+    next.moved = scratch.moved-any
+)");
+    EXPECT_EQ(report["aggregations over the few that are true"], 3);
+}
+
+TEST(VisitTrue, LeavesOthers) {
+    for (const char* const body : {"move(?o, ?p) ^ free(?o) ^ NEXT(?o, ?p)",  // many are true
+                                   "free(?p) ^ at(?o) ^ NEXT(?o, ?p)",  // words hold what is read
+                                   "move(?o, ?p) ^ at(?o)",             // no constant chooses pairs
+                                   "move(?o, ?p) ^ at(?o) ^ NEXT(?o, ?p) ^ Bernoulli(0.5)"}) {
+        const ir::Program program =
+            grounded_with_many(chain("moved' = exists_{?o : obj, ?p : obj} [" + std::string(body) +
+                                     "];\nat'(?o) = at(?o);"));
+        passes::Report report;
+        EXPECT_EQ(ir::print(passes::visit_true(program, report)), ir::print(program)) << body;
+    }
+}
+
+}  // namespace
+}  // namespace rddlc
