@@ -22,7 +22,7 @@ namespace {
 
 constexpr double least_inexact = 9007199254740992.0;  // 2^53: the next int rounds to it
 
-// A number of Python or numpy, or the one in an array of shape ().
+// A number of Python or numpy, or the one in an array of one entry.
 std::optional<double> number_of(PyObject* given) {
     if (PyFloat_Check(given)) return PyFloat_AsDouble(given);
     if (!PyLong_Check(given)) return numpy_number(given);

@@ -1,5 +1,7 @@
 #include "native/env_pool.hpp"
 
+#include "native/buffers.hpp"
+
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -159,22 +161,6 @@ bool EnvPool::step_values(const Outputs& outputs, const void* actions, nb::handl
         kept.is_valid() ? kept : outputs.kept);
     return has_ended();
 }
-
-namespace {
-
-template <class T>
-T* memory_of(nb::handle array, std::size_t count, std::size_t size = sizeof(T)) {
-    Py_buffer view;
-    if (PyObject_GetBuffer(array.ptr(), &view, PyBUF_WRITABLE) != 0) throw nb::python_error();
-    void* const memory = view.buf;
-    const auto bytes = static_cast<std::size_t>(view.len);
-    PyBuffer_Release(&view);
-    if (bytes != count * size)
-        throw Refused(fmt::format("an array has {} bytes, not {}", bytes, count * size));
-    return static_cast<T*>(memory);
-}
-
-}  // namespace
 
 Outputs EnvPool::outputs_in(nb::handle arrays) const {
     if (arrays.is_none()) return {};

@@ -69,7 +69,7 @@ nb::object array_of(std::int64_t number) {
 std::optional<double> numpy_number(PyObject* given) {
     if (PyArray_CheckExact(given)) {
         auto* const array = reinterpret_cast<PyArrayObject*>(given);
-        if (PyArray_NDIM(array) != 0 || !PyArray_ISNOTSWAPPED(array)) return std::nullopt;
+        if (PyArray_SIZE(array) != 1 || !PyArray_ISNOTSWAPPED(array)) return std::nullopt;
         return number_at(PyArray_DATA(array), PyArray_TYPE(array));
     }
     if (is_whole_type(Py_TYPE(given)))

@@ -16,8 +16,8 @@ void import_numpy();
 nanobind::object array_of(double number);
 nanobind::object array_of(std::int64_t number);
 
-// The number in a scalar of numpy, or in an array of the shape (); nothing for other objects and
-// for types that are not common.
+// The number in a scalar of numpy, or in an array of one entry; nothing for other objects and for
+// types that are not common.
 std::optional<double> numpy_number(PyObject* given);
 
 // The number of an array as array_of() makes it, to be overwritten; null for other objects, and

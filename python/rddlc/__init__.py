@@ -53,6 +53,7 @@ __all__ = [
 ]
 
 _OF_PROBLEM = ("instance_name", "engine", "externs", "extended", "details")
+_OF_PYRDDLGYM = ("backend", "backend_kwargs", "debug_path", "log_path")
 
 
 def make(
@@ -117,6 +118,9 @@ def make_vec(
 def _problem_of(domain: Any, instance: Any, options: dict[str, Any], taker: type[Any]) -> Problem:
     """Takes what is about loading out of the options. Refuses those that neither a problem nor
     `taker` has."""
+    for name in _OF_PYRDDLGYM:
+        if name in options:
+            raise ArgumentError(f"{name} is an option of pyRDDLGym's environments: rddlc.backend.make makes them")
     refuse_unknown("option", options, (*_OF_PROBLEM, *keywords_of(taker.__init__)))
     of_problem = {key: options.pop(key) for key in _OF_PROBLEM if key in options}
     if not isinstance(domain, Problem):

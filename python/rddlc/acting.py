@@ -78,8 +78,17 @@ def actions_in(env: Environment, records: NDArray[np.uint8], *, is_single: bool)
     if env._writer.plan is None:
         lifted = not isinstance(env, RDDLEnv) or env._forms["vectorized"]
         reader = dictionary_reader(env.model.actions, records, lifted=lifted)
-        return reader.read() if is_single else reader.rows(copy=True)
+        return _in_shape(env, reader.read()) if is_single else reader.rows(copy=True)
     rows = env._writer.actions_of(records)
     if not is_single:
         return rows
     return {name: row[0] for name, row in rows.items()} if isinstance(rows, dict) else rows[0]
+
+
+def _in_shape(env: Environment, action: dict[str, Any]) -> dict[str, Any]:
+    """The numbers of an action with the shape that they have in its space."""
+    space: Any = env._writer.space
+    return {
+        name: np.reshape(value, space[name].shape) if isinstance(value, np.ndarray) else value
+        for name, value in action.items()
+    }

@@ -5,6 +5,7 @@ from __future__ import annotations
 import inspect
 import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
+from difflib import get_close_matches
 from operator import index
 from typing import Any
 
@@ -120,7 +121,9 @@ def refuse_unknown(what: str, given: Iterable[Any], known: Sequence[str]) -> Non
     """Raises for unknown names, since a misspelt option would have no effect. what: "option"."""
     for name in given:
         if name not in known:
-            raise ArgumentError(f"there is no {what} {shown(name)}; there are {_listed(known)}")
+            close = get_close_matches(str(name), known, 1)
+            hint = f"did you mean {close[0]!r}?" if close else f"there are {_listed(known)}"
+            raise ArgumentError(f"there is no {what} {shown(name)}; {hint}")
 
 
 def options_of_reset(options: Any, known: Sequence[str]) -> Mapping[str, Any]:

@@ -9,7 +9,7 @@ import os
 from collections.abc import Mapping
 from copy import deepcopy
 from dataclasses import replace
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import gymnasium
 import numpy as np
@@ -36,6 +36,12 @@ from .translation.readers import GroundedReader, LearnersReader, dictionary_read
 
 OBSERVATIONS = ("dict", "flat")
 ACTIONS = ("dict", "simplified", "box")
+
+# Attributes of pyRDDLGym's environments that programs ask for, and what ours has in their place.
+OF_PYRDDLGYM = {
+    "sampler": "env.state and env.interm_fluents() have the values",
+    "set_visualizer": "render_mode and visualizer are options of make",
+}
 
 
 class RDDLEnv(ProblemProperties, gymnasium.Env[Any, Any]):
@@ -392,6 +398,14 @@ class RDDLEnv(ProblemProperties, gymnasium.Env[Any, Any]):
 
     def __str__(self) -> str:
         return f"<RDDLEnv {self.problem.name}>"
+
+    if not TYPE_CHECKING:  # type checkers report what is missing by themselves
+
+        def __getattr__(self, name: str) -> Any:
+            text = f"'RDDLEnv' object has no attribute '{name}'"
+            if name in OF_PYRDDLGYM:
+                text += f": {OF_PYRDDLGYM[name]}, and rddlc.backend.make makes pyRDDLGym's own environment"
+            raise AttributeError(text, name=name, obj=self)
 
     # ---- copies
 

@@ -56,6 +56,14 @@ class Learner:
     extension: ClassVar[str]
     total: ClassVar[str]  # the option for the amount of training
 
+    def __new__(cls: type[L], *given: Any, **options: Any) -> L:
+        if len(given) > 1:
+            raise ArgumentError(
+                f"rddlc.{cls.__name__} takes an environment alone, as in rddlc.{cls.__name__}(env): what a policy "
+                "is like is set by options"
+            )
+        return super().__new__(cls)
+
     def __init__(self, env_or_problem: Solvable, *, verbose: int = 0, **options: Any) -> None:
         self.problem = problem_in(env_or_problem)
         self._env = environment_in(env_or_problem)

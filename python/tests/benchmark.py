@@ -25,6 +25,7 @@ import warnings
 from collections.abc import Callable
 from typing import Any
 
+import numpy as np
 
 import rddlc
 
@@ -79,7 +80,9 @@ def of_pyrddlgym(problem: rddlc.Problem, action: Any) -> Callable[[], int]:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
             env = pyRDDLGym.make(*problem.files)
-        unguarded = stepper(env, action)
+        # pyRDDLGym refuses the arrays of one number that its own space draws.
+        unguarded = stepper(env, {name: value.reshape(()) if isinstance(value, np.ndarray) else value
+                                  for name, value in action.items()})
     except Exception as error:
         raise TheirsFailed from error
 

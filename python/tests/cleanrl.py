@@ -12,10 +12,13 @@ a line to be changed is not there, where the program fails, or where it finishes
 from __future__ import annotations
 
 import argparse
+import os
 import subprocess
 import sys
 import tempfile
 from pathlib import Path
+
+import rddlc
 
 REPOSITORY, COMMIT = "https://github.com/vwxyzjn/cleanrl", "fe8d8a03c41a7ef5b523e2e354bd01c363e786bb"
 # Program, actions, problem, and how many steps are enough for an episode.
@@ -53,6 +56,7 @@ def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("clone", type=Path, nargs="?")
     given = parser.parse_args().clone
+    packages = {"PYTHONPATH": os.path.dirname(os.path.dirname(os.path.abspath(rddlc.__file__)))}
     with tempfile.TemporaryDirectory() as fetched, tempfile.TemporaryDirectory() as folder:
         sources = (given or clone(fetched)) / "cleanrl"
         for name, actions, problem, steps in RUNS:
@@ -60,7 +64,7 @@ def main() -> int:
             file = Path(folder, f"{name}.py")
             file.write_text(changed((sources / file.name).read_text(), actions))
             command = [sys.executable, file, "--env-id", problem, "--total-timesteps", str(steps), "--no-cuda"]
-            run = subprocess.run(command, cwd=folder, capture_output=True, text=True)
+            run = subprocess.run(command, cwd=folder, env=os.environ | packages, capture_output=True, text=True)
             episodes = [line for line in run.stdout.splitlines() if "episodic_return" in line]
             if run.returncode != 0 or not episodes:
                 print(run.stdout[-2000:], run.stderr[-4000:], "FAILED", sep="\n")

@@ -23,6 +23,8 @@ import traceback
 from pathlib import Path
 from typing import Any
 
+import rddlc
+
 THEIRS, OURS = "skdecide.hub.domain.rddl", "rddlc.skdecide"
 END = "pyRDDLGym solvers wrapped"
 
@@ -45,6 +47,7 @@ def main() -> int:
     parser.add_argument("notebook", type=Path)
     options = parser.parse_args()
     os.environ.setdefault("SDL_VIDEODRIVER", "dummy")
+    os.environ["PYTHONPATH"] = str(Path(rddlc.__file__).absolute().parents[1])  # for the processes of Ray
     cells = cells_of(options.notebook.resolve())
     changed = sum(THEIRS in cell for cell in cells)
     if changed != 1:

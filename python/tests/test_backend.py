@@ -14,6 +14,7 @@ from pyRDDLGym.core.policy import NoOpAgent, RandomAgent
 
 import rddlc
 from rddlc.backend import RDDLSimulator
+from rddlc.environment import OF_PYRDDLGYM as ENVIRONMENTS_OF_PYRDDLGYM
 from rddlc.model import OF_PYRDDLGYM
 
 # Deterministic ones, with reals, bools, objects; and a partially observed one.
@@ -91,6 +92,24 @@ class Agents(unittest.TestCase):
             env = rddlc.make(name, 1, engine="interpreter")
             found = kind(env.action_space, env.max_allowed_actions).evaluate(env, episodes=2, seed=1)
             self.assertTrue(np.isfinite(found["mean"]))
+
+    def test_random_agents_draw_the_same_numbers_as_on_pyrddlgym(self) -> None:
+        for name in ("MountainCar_ippc2023", "HVAC_ippc2023", "UAV_Mixed"):  # deterministic, with reals
+            instance = next(each for each in rddlc.problems() if each.name == name).instances[0]
+            returns = []
+            for env in (rddlc.make(name, instance, engine="interpreter"), pyRDDLGym.make(name, str(instance))):
+                agent = RandomAgent(env.action_space, env.max_allowed_actions, seed=3)
+                returns.append(agent.evaluate(env, episodes=1, seed=1)["mean"])
+            np.testing.assert_allclose(*returns, rtol=1e-6, err_msg=name)  # theirs are drawn as float32
+
+    def test_names_of_pyrddlgyms_environments_lead_to_ours(self) -> None:
+        env = rddlc.make("HVAC_ippc2023", 1, engine="interpreter")
+        for name, ours in ENVIRONMENTS_OF_PYRDDLGYM.items():
+            self.assertTrue(hasattr(pyRDDLGym.make("HVAC_ippc2023", "1"), name), name)
+            with self.assertRaises(AttributeError) as refused:
+                getattr(env, name)
+            self.assertIn(ours, str(refused.exception))
+        self.assertFalse(hasattr(env, "no_such_thing"))
 
     def test_names_of_pyrddlgyms_model_lead_to_ours(self) -> None:
         model = rddlc.make("HVAC_ippc2023", 1, engine="interpreter").model

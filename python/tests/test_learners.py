@@ -284,6 +284,10 @@ class Learners(unittest.TestCase):
         with self.assertRaisesRegex(rddlc.ArgumentError, "'node'; did you mean 'nodes'"):
             rddlc.CGP(problem, node=5)
 
+    def test_the_arguments_of_stable_baselines3_are_refused_with_a_sentence(self) -> None:
+        with self.assertRaisesRegex(rddlc.ArgumentError, r"alone, as in rddlc.PPO\(env\)"):
+            rddlc.PPO("MlpPolicy", example("mountain_car"))
+
     def test_every_option_of_the_command_line_is_a_keyword(self) -> None:
         problem = example("network").problem
         rddlc.PPO(

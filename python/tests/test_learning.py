@@ -6,11 +6,52 @@ import unittest
 
 import numpy as np
 from gymnasium import spaces
-from support import example, written
+from support import TEXTS, example, problem_of, problem_of_text, written
 
 import rddlc
 from rddlc.translation.action_plan import Squash, plan_of
+from rddlc.model import Model
 from rddlc.translation.readers import FlatReader
+from rddlc.versions import HAS_VECTORS
+
+
+EXTREME = """
+domain extreme {
+    pvariables {
+        tiny : { state-fluent, real, default = 0.0 };
+        huge : { state-fluent, real, default = 0.0 };
+        fixed : { state-fluent, real, default = 3.0 };
+        move : { action-fluent, bool, default = false };
+    };
+    cpfs { tiny' = tiny; huge' = huge; fixed' = fixed; };
+    reward = 0;
+    state-invariants {
+        tiny >= 0; tiny <= TINY; huge >= -HUGE; huge <= HUGE; fixed >= 3; fixed <= 3;
+    };
+}
+non-fluents nothing { domain = extreme; }
+instance extreme_1 {
+    domain = extreme; non-fluents = nothing;
+    max-nondef-actions = pos-inf; horizon = 5; discount = 1.0;
+}
+""".replace("TINY", f"0.{'0' * 60}1").replace("HUGE", f"1{'0' * 60}.0")  # RDDL's numbers have no exponent
+
+
+def features_of(model: Model, values: dict[str, np.ndarray], *, normalize: bool) -> np.ndarray:
+    """(features,) by the definition in docs/python.md, of a vectorized dictionary."""
+    features: list[float] = []
+    for fluent in model.observed:
+        for place, value in enumerate(np.ravel(values[fluent.name]).tolist()):
+            count = len(fluent.objects or ())
+            entries = [float(value == each) for each in range(count)] or [value]
+            lower, upper = 0.0, 1.0
+            if not count and fluent.scalar != "bool":
+                bounds = [np.ravel(each)[place] for each in (fluent.lower, fluent.upper) if each is not None]
+                lower, upper = bounds or (-np.inf, np.inf)
+            if normalize and np.isfinite([lower, upper]).all() and lower < upper:
+                entries = [(each - (lower + upper) / 2) / ((upper - lower) / 2) for each in entries]
+            features += entries
+    return np.array(features, np.float32)
 
 
 class FlatObservations(unittest.TestCase):
@@ -28,6 +69,51 @@ class FlatObservations(unittest.TestCase):
         reader = FlatReader(problem.model.observed, values, values, normalize=False)
         colors = ["shade=red", "shade=green", "shade=blue"]
         self.assertEqual(reader.names, ["count___a", "count___b", *colors, "filled"])
+
+    def test_features_are_those_of_the_dictionary(self) -> None:
+        problems = [problem_of(name) for name in TEXTS if name != "mistake"]
+        for problem in [*problems, *(example(name).problem for name in ("delivery", "reservoir", "robot"))]:
+            for normalize in (False, True):
+                with self.subTest(problem=problem.name, normalize=normalize):
+                    flat = rddlc.make(problem, observations="flat", normalize=normalize)
+                    twin = rddlc.make(problem, vectorized=True)
+                    twin.action_space.seed(1)
+                    shown, values = flat.reset(seed=1)[0], twin.reset(seed=1)[0]
+                    for _ in range(4):
+                        expected = features_of(problem.model, values, normalize=normalize)
+                        np.testing.assert_allclose(shown, expected, rtol=1e-6, atol=1e-6)
+                        self.assertTrue(shown.dtype == np.float32 and flat.observation_space.contains(shown))
+                        action = twin.action_space.sample()
+                        shown, _, terminated, truncated, _ = flat.step(action)
+                        values = twin.step(action)[0]
+                        if terminated or truncated:
+                            break
+
+    def test_ranges_that_no_float_has_are_not_normalized(self) -> None:
+        env = rddlc.make(problem_of_text(EXTREME), observations="flat", normalize=True)
+        shown, _ = env.reset(seed=1)
+        self.assertEqual(shown.tolist(), [0, 0, 3])
+        self.assertTrue(env.observation_space.contains(shown))
+
+    @unittest.skipUnless(HAS_VECTORS, "vectors need gymnasium 1.0")
+    def test_rows_and_last_rows_are_those_of_single_environments(self) -> None:
+        for actions in ("simplified", "dict"):
+            with self.subTest(actions=actions):
+                forms = {"normalize": True, "horizon": 2}
+                envs = rddlc.make_vec(
+                    problem_of("counters"), num_envs=3, actions=actions, autoreset_mode="SameStep", **forms
+                )
+                single = written("counters", observations="flat", **forms)
+                first, _ = envs.reset(seed=1)
+                envs.action_space.seed(1)
+                action = envs.action_space.sample()
+                envs.step(action)
+                again, *_, infos = envs.step(action)
+                self.assertEqual(first[0].tolist(), single.reset(seed=1)[0].tolist())
+                np.testing.assert_array_equal(again, first)
+                self.assertEqual(infos["final_obs"].shape, first.shape)
+                shades = infos["final_obs"][:, 2:5]
+                np.testing.assert_array_equal(np.sort(shades), [[-1, -1, 1]] * 3)
 
     def test_normalized_bounds_are_minus_one_and_one(self) -> None:
         env = written("refuses", observations="flat", normalize=True)  # a glass from 0 to 4

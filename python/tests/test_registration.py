@@ -15,6 +15,7 @@ from support import DOOR, FOLDER, GLASS, example
 
 import rddlc
 from rddlc.repository_names import known_instances
+from rddlc.versions import HAS_VECTORS
 
 CAR = FOLDER / "mountain_car"
 
@@ -31,8 +32,6 @@ class Registration(unittest.TestCase):
         self.assertEqual(env.observation_space.shape, (2,))
         self.assertEqual(env.unwrapped.horizon, 7)
         self.assertEqual(env.spec.max_episode_steps, 7)
-        envs = gymnasium.make_vec("Climb-v0", num_envs=3)
-        self.assertEqual((envs.num_envs, envs.unwrapped.horizon), (3, 7))
         with self.assertRaisesRegex(rddlc.ArgumentError, "no option 'horizn'"):
             rddlc.register("Climb-v1", CAR, 1, horizn=7)
 
@@ -43,7 +42,13 @@ class Registration(unittest.TestCase):
         self.assertEqual(again.observation_space, env.observation_space)
         self.assertEqual(again.unwrapped.problem.engine, "interpreter")
         self.assertEqual(pickle.loads(pickle.dumps(env)).spec, env.spec)
-        envs = rddlc.make_vec(env.problem, num_envs=2)
+
+    @unittest.skipUnless(HAS_VECTORS, "vectors need gymnasium 1.0")
+    def test_vectors_are_made_of_ids_and_specifications(self) -> None:
+        rddlc.register("ClimbTogether-v0", CAR, 1, engine="interpreter", horizon=7)
+        envs = gymnasium.make_vec("ClimbTogether-v0", num_envs=3)
+        self.assertEqual((envs.num_envs, envs.unwrapped.horizon), (3, 7))
+        envs = rddlc.make_vec(CAR, 1, num_envs=2, engine="interpreter")
         self.assertEqual(gymnasium.make_vec(envs.spec, num_envs=4).num_envs, 4)
         single = example("mountain_car", horizon=9)
         self.assertEqual(gymnasium.make_vec(single.spec, num_envs=4).unwrapped.horizon, 9)

@@ -134,9 +134,9 @@ class StableBaselines(unittest.TestCase):
         envs.reset()  # options are for one reset
         self.assertEqual([envs.env._batch.progress(place)[0] for place in range(3)], [0, 0, 0])
         envs.set_options({"stat": env.get_state()})
-        with self.assertRaisesRegex(rddlc.Error, "'stat'; there are state"):
+        with self.assertRaisesRegex(rddlc.Error, "'stat'; did you mean 'state'"):
             envs.reset()
-        with self.assertRaisesRegex(rddlc.Error, "'horizn'; there are .*horizon"):
+        with self.assertRaisesRegex(rddlc.Error, "'horizn'; did you mean 'horizon'"):
             sb3.make("network", 1, horizn=3)
 
     def test_other_autoreset_modes_are_refused(self) -> None:

@@ -16,6 +16,8 @@ FORMS = (
     {"vectorized": True},
     {"actions": "simplified"},
     {"actions": "simplified", "observations": "flat"},
+    {"actions": "simplified", "normalize": True},
+    {"actions": "box"},
 )
 PROBLEMS = [problem_of(name) for name in TEXTS if name != "mistake"] + [
     example(name).problem for name in ("delivery", "mountain_car", "network", "reservoir", "robot")
@@ -50,7 +52,7 @@ class Refuser:
 
 def slow(env: Any) -> Any:
     env._stepper = None
-    env._writer.native = env._writer._native_asked = env._writer._row_writer = Refuser()
+    env._writer.native = env._writer._native_asked = env._writer._stepper = Refuser()
     return env
 
 
@@ -72,10 +74,10 @@ class NativeWriters(unittest.TestCase):
     @unittest.skipUnless(HAS_VECTORS, "vectors need gymnasium 1.0")
     def test_batches_step_alike(self) -> None:
         for problem in PROBLEMS:
-            for actions in ("simplified", "dict"):
-                with self.subTest(problem=problem.name, actions=actions):
-                    quick = rddlc.RDDLVectorEnv(problem, 3, actions=actions)
-                    plain = slow(rddlc.RDDLVectorEnv(problem, 3, actions=actions))
+            for form in ({"actions": "dict"}, {}, {"normalize": True}, {"actions": "box"}):
+                with self.subTest(problem=problem.name, form=form):
+                    quick = rddlc.RDDLVectorEnv(problem, 3, **form)
+                    plain = slow(rddlc.RDDLVectorEnv(problem, 3, **form))
                     quick.action_space.seed(1)
                     for envs in (quick, plain):
                         envs.reset(seed=1)
@@ -90,6 +92,49 @@ class NativeWriters(unittest.TestCase):
                     env = rddlc.RDDLEnv(problem, vectorized=vectorized)
                     env.reset(seed=1)
                     self.assertTrue(env._writer.native.write(env.action_space.sample()))
+
+    def test_choices_are_taken_natively(self) -> None:
+        for problem in PROBLEMS:
+            for form in ({"actions": "simplified"}, {"actions": "simplified", "normalize": True}, {"actions": "box"}):
+                with self.subTest(problem=problem.name, form=form):
+                    env = rddlc.RDDLEnv(problem, **form)
+                    env.reset(seed=1)
+                    self.assertIsNotNone(env._writer._stepper.step(env.action_space.sample(), None))
+
+    def test_choices_outside_of_the_space_are_refused_natively(self) -> None:
+        env = rddlc.make(problem_of("counters"), actions="simplified", observations="flat", normalize=True)
+        env.reset(seed=1)
+        before = env.get_state()
+        step, zeros = env._writer._stepper.step, np.zeros(2, np.float32)
+        good = {"discrete": np.zeros(3, np.int64), "continuous": zeros}
+        for change in (
+            {"discrete": np.array([3, 0, 0])},
+            {"discrete": np.array([0, -1, 0])},
+            {"discrete": np.zeros(3)},
+            {"discrete": np.zeros(4, np.int64)},
+            {"continuous": np.array([0, 1.1])},
+            {"continuous": np.array([np.nan, 0])},
+            {"continuous": np.zeros(3)},
+            {"continuous": None},
+            {"action": 0},
+        ):
+            self.assertIsNone(step(good | change, None), change)
+        for other in (None, 0, zeros, {"discrete": good["discrete"]}):
+            self.assertIsNone(step(other, None))
+        self.assertEqual(env.get_state(), before)
+
+    def test_a_box_cuts_categories_and_refuses_numbers(self) -> None:
+        quick = rddlc.make(problem_of("counters"), actions="box")
+        plain = slow(rddlc.make(problem_of("counters"), actions="box"))
+        for wide in (7.0, -7.0, np.inf, -np.inf):
+            action = np.array([wide, wide, wide, 0, 0], np.float32)
+            for env in (quick, plain):
+                env.reset(seed=1)
+            np.testing.assert_equal(quick.step(action), plain.step(action))
+        for wrong in ([np.nan, 0, 0, 0, 0], [0, 0, 0, 1.5, 0]):
+            for env in (quick, plain):
+                with self.assertRaises(rddlc.ActionError):
+                    env.step(np.array(wrong, np.float32))
 
     def test_common_forms_of_values_are_one_value(self) -> None:
         env = rddlc.make(problem_of("counters"))

@@ -105,6 +105,12 @@ class Squash:
         self._default = plan.defaults[plan.number_columns]
         self._unit = np.maximum(1.0, np.abs(self._default))
 
+    @property
+    def parameters(self) -> list[tuple[float, float, float, float]]:
+        """Lower, upper, default and unit of each number."""
+        rows = zip(self._lower.tolist(), self._upper.tolist(), self._default.tolist(), self._unit.tolist())
+        return list(rows)
+
     def values(self, numbers: Array) -> Array:
         """(n, numbers) in the problem's own scale."""
         numbers = numbers.astype(np.float64)

@@ -24,7 +24,7 @@ class ActionDict(spaces.Dict):
         self, entries: Mapping[str, spaces.Space[Any]], defaults: Mapping[str, Any], limit: int
     ) -> None:
         super().__init__(OrderedDict(entries))
-        self.defaults = {key: np.asarray(value) for key, value in defaults.items()}
+        self.defaults = {key: np.reshape(value, entries[key].shape or ()) for key, value in defaults.items()}
         self.limit = limit
 
     def changes(self, action: Mapping[str, Any]) -> int:
@@ -50,9 +50,7 @@ class ActionDict(spaces.Dict):
                 sampled[key] = np.where(part.reshape(default.shape), sampled[key], default)
                 sampled[key] = sampled[key].astype(self.spaces[key].dtype)
             elif not part[0]:
-                space = self.spaces[key]
-                is_box = isinstance(space, spaces.Box)
-                sampled[key] = default.astype(space.dtype) if is_box else np.int64(default)
+                sampled[key] = np.int64(default)
         return sampled
 
 
@@ -85,9 +83,9 @@ def _batch_of_action_dict(space: ActionDict, n: int = 1) -> ActionDictBatch:
     return ActionDictBatch(deepcopy(space), n)
 
 
-def grounded_space(fluents: Sequence[Fluent]) -> spaces.Dict:
-    """A space for each value: Discrete for bools, objects and bounded ints, else a Box of shape ()."""
-    return _in_order({column.name: _space_of_value(column) for column in columns_of(fluents)})
+def grounded_space(fluents: Sequence[Fluent], shape: tuple[int, ...] = ()) -> spaces.Dict:
+    """A space for each value: Discrete for bools, objects and bounded ints, else a Box of that shape."""
+    return _in_order({column.name: _space_of_value(column, shape) for column in columns_of(fluents)})
 
 
 def lifted_space(fluents: Sequence[Fluent]) -> spaces.Dict:
@@ -102,19 +100,20 @@ def _in_order(entries: dict[str, spaces.Space[Any]]) -> spaces.Dict:
 
 
 def action_space(model: Model, defaults: Mapping[str, Any], *, lifted: bool) -> spaces.Dict:
-    """The space of action dictionaries; `defaults` by the same keys."""
-    space = lifted_space(model.actions) if lifted else grounded_space(model.actions)
+    """The space of action dictionaries; `defaults` by the same keys. Numbers have the shape (1,), as those of
+    pyRDDLGym: its RandomAgent takes the first entry of each."""
+    space = lifted_space(model.actions) if lifted else grounded_space(model.actions, (1,))
     limit = model.limited_actions
     return space if limit is None else ActionDict(space.spaces, defaults, limit)
 
 
-def _space_of_value(column: Column) -> spaces.Space[Any]:
+def _space_of_value(column: Column, shape: tuple[int, ...]) -> spaces.Space[Any]:
     stored = STORED[column.fluent.scalar]
     lower, upper = column.bounds
     count = column.category_count
     if count is not None and count <= np.iinfo(np.int32).max:
         return spaces.Discrete(count, start=int(lower))
-    return spaces.Box(lower, upper, (), stored.type)
+    return spaces.Box(lower, upper, shape, stored.type)
 
 
 def _space_of_fluent(fluent: Fluent) -> spaces.Box:

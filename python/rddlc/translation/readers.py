@@ -11,12 +11,13 @@ from numpy.typing import NDArray
 
 from .. import _native
 from ..model import Fluent
-from ..records import columns_of, grounded_view, lifted_views
+from ..records import Column, columns_of, grounded_view, lifted_views
 from .fluent_spaces import grounded_space, lifted_space
 from .protocols import ObservationReader
 
 Array = NDArray[Any]
 Records = NDArray[np.uint8]
+LEAST_SINGLE, MOST_SINGLE = (float(each) for each in (np.finfo(np.float32).tiny, np.finfo(np.float32).max))
 
 
 def dictionary_reader(
@@ -155,34 +156,20 @@ class FlatReader:
     def __init__(
         self, fluents: list[Fluent], values: Array, final_values: Array, *, normalize: bool
     ) -> None:
-        columns = columns_of(fluents)
         self._values, self._first, self._final_values = values, values[0], final_values
-        self._sources: list[int] = []  # of each feature: a column
-        objects: list[int] = []  # and the object that it is about, or -1
-        self.names: list[str] = []
-        for index, column in enumerate(columns):
-            names = column.fluent.objects
-            self._sources += [index] * (len(names) if names else 1)
-            objects += range(len(names)) if names else [-1]
-            self.names += [f"{column.name}={each}" for each in names] if names else [column.name]
-        self._objects = np.array(objects)
-        lower, upper = np.array([column.bounds for column in columns]).reshape(-1, 2)[self._sources].T
-        is_object = self._objects >= 0
-        lower, upper = np.where(is_object, 0, lower), np.where(is_object, 1, upper)
-        self._is_plain = not is_object.any()
-        self.is_view = self._is_plain and not normalize
-        self._middle: Array | None = None
-        if normalize:
-            scaled = np.isfinite(lower) & np.isfinite(upper) & (lower < upper)
-            safe_lower, safe_upper = np.where(scaled, lower, 0), np.where(scaled, upper, 0)
-            self._middle = ((safe_lower + safe_upper) / 2).astype(np.float32)
-            self._half = np.where(scaled, (safe_upper - safe_lower) / 2, 1).astype(np.float32)
-            lower, upper = np.where(scaled, -1, lower), np.where(scaled, 1, upper)
-        self.space = spaces.Box(lower.astype(np.float32), upper.astype(np.float32), dtype=np.float32)
+        self._columns = [_ColumnFeatures(column, normalize) for column in columns_of(fluents)]
+        self._writer = _native.FeatureWriter([each.native for each in self._columns])
+        self.is_view = not normalize and not any(each.objects for each in self._columns)
+        self.names = [name for each in self._columns for name in each.names]
+        lower, upper = np.array([limits for each in self._columns for limits in each.limits]).reshape(-1, 2).T
+        with np.errstate(over="ignore"):  # a bound that no float32 has is infinite
+            self.space = spaces.Box(lower.astype(np.float32), upper.astype(np.float32), dtype=np.float32)
 
     def rows(self, *, copy: bool) -> Array:
         """(n, features)"""
-        return self._values.copy() if copy and self.is_view else self._features(self._values)
+        if self.is_view:
+            return self._values.copy() if copy else self._values
+        return self._features(self._values)
 
     def final_rows(self) -> Array:
         """(n, features)"""
@@ -192,24 +179,44 @@ class FlatReader:
         return self._features(final.astype(np.float32))
 
     def _features(self, rows: Array) -> Array:
-        if not self._is_plain:
-            rows = rows[:, self._sources]
-            rows = np.where(self._objects >= 0, rows == self._objects, rows).astype(np.float32)
-        if self._middle is not None:
-            rows = (rows - self._middle) / self._half
-        return rows
+        features = np.empty((len(rows), self._writer.width), np.float32)
+        self._writer.write(rows, features, len(rows))
+        return features
 
     def read(self) -> Array:
         """(features,)"""
-        return self._first.copy() if self.is_view else self._features(self._values)[0]
+        if self.is_view:
+            return self._first.copy()
+        features = np.empty(self._writer.width, np.float32)
+        self._writer.write(self._first, features, 1)
+        return features
 
     def values(self, observations: Any) -> Array:
-        rows = np.reshape(observations, (-1, len(self._sources)))
-        if self._middle is not None:
-            rows = rows * self._half + self._middle
+        rows = np.reshape(observations, (-1, self._writer.width))
         columns: list[Array] = []
-        for column in range(len(self._first)):
-            features = np.flatnonzero(np.array(self._sources) == column)
-            is_object = self._objects[features[0]] >= 0
-            columns.append(rows[:, features].argmax(axis=1) if is_object else rows[:, features[0]])
+        first = 0
+        for column in self._columns:
+            features = rows[:, first : first + len(column.names)]
+            columns.append(features.argmax(axis=1) if column.objects else features[:, 0] * column.half + column.middle)
+            first += len(column.names)
         return np.stack(columns, axis=1)
+
+
+class _ColumnFeatures:
+    """The features of a column, of which `limits` are the bounds: (value - middle) / half, also of the 0 and 1
+    that say whether it is an object."""
+
+    def __init__(self, column: Column, normalize: bool) -> None:
+        self.objects = column.fluent.objects or ()
+        self.names = [f"{column.name}={each}" for each in self.objects] or [column.name]
+        lower, upper = (0.0, 1.0) if self.objects else column.bounds
+        self.middle, self.half = 0.0, 1.0
+        middle, half = lower / 2 + upper / 2, upper / 2 - lower / 2
+        if normalize and LEAST_SINGLE <= half <= MOST_SINGLE:  # not if a bound is infinite
+            self.middle, self.half = middle, half
+            lower, upper = -1.0, 1.0
+        self.limits = [(lower, upper)] * len(self.names)
+
+    @property
+    def native(self) -> tuple[int, float, float]:
+        return len(self.objects), self.middle, self.half
