@@ -19,12 +19,13 @@ DISCRETE = ["Elevators_MDP_ippc2011", "GameOfLife_MDP_ippc2011", "SysAdmin_MDP_i
 REAL = ["HVAC_ippc2023", "UAV_ippc2023", "Reservoir_ippc2023"]
 PLANNERS = [
     ("plan:cem", DISCRETE + REAL),
+    ("plan:rollout,policy=noop", DISCRETE + REAL),
     ("plan:rollout,policy=random", DISCRETE + REAL),
     ("plan:uct", DISCRETE),
     ("plan:gradient", REAL),
 ]
-HORIZON = 5
-FEW, MANY = 5_000, 205_000
+HORIZON = 40
+FEW, MANY = 5_000, 105_000
 
 
 def processor_seconds(words):

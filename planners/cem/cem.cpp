@@ -15,8 +15,6 @@ namespace {
 
 // Steps of a plan, until something is better than doing nothing, if the user gives no horizon.
 constexpr std::int64_t first_horizon = 40;
-// Correlations of noise, of one sample after the other.
-constexpr std::array<double, 4> mixture{0, 0.5, 0.8, 0.95};
 
 std::size_t scenarios_of(const rddl_problem& problem, const CemOptions& options) {
     if (options.scenarios) return static_cast<std::size_t>(*options.scenarios);
@@ -40,6 +38,13 @@ std::size_t population_of(const PlannerContext& context, const CemOptions& optio
     return static_cast<std::size_t>(population);
 }
 
+// The correlations of noise, for one plan after the other.
+std::span<const double> correlations_of(const CemOptions& options) {
+    static constexpr std::array<double, 4> mixture{0, 0.5, 0.8, 0.95};
+    if (options.correlation < 0) return mixture;
+    return {&options.correlation, 1};
+}
+
 // Fewer draws of stream where a budget has no room for them.
 std::size_t affordable(std::size_t scenarios, const Budget& budget) {
     if (!budget.steps) return scenarios;
@@ -59,9 +64,13 @@ Cem::Cem(const PlannerContext& context, const CemOptions& options)
                static_cast<std::int64_t>(scenarios_ * population_of(context, options, scenarios_)),
                context.horizon),
       repair_(simulator_, space_, futures_.count()),
-      memories_(context.environments) {
+      memories_(context.environments),
+      plans_(static_cast<std::size_t>(futures_.count()) / scenarios_, space_.real_count(),
+             space_.index_count()),
+      noise_(plans_.plans(), space_.real_count(), space_.index_count(), correlations_of(options_)),
+      plan_actions_(space_, records_, plans_.plans()) {
     lanes_ = static_cast<std::size_t>(futures_.count());
-    population_ = lanes_ / scenarios_;
+    population_ = plans_.plans();
     if (context.base) {
         base_.emplace(simulator_, *context.base, futures_.count());
         recorder_.emplace(simulator_, *context.base, 1);
@@ -72,16 +81,13 @@ Cem::Cem(const PlannerContext& context, const CemOptions& options)
     solvers::read_action(space_, space_.defaults.data(), default_numbers_.data(),
                          default_indices_.data());
 
-    plans_.resize(population_);
     origins_.resize(population_);
     values_.resize(population_);
     errors_.resize(population_);
     order_.resize(population_);
     firsts_.resize(population_ * records_.record_size());
-    for (std::size_t k = 0; k < lanes_; ++k)
-        plan_of_lane_.push_back(static_cast<std::uint32_t>(k / scenarios_));
-    compared_of_lane_.resize(lanes_);
     streams_.resize(lanes_);
+    violated_.resize(lanes_);
     rows_.resize(lanes_ * static_cast<std::size_t>(space_.column_count));
     actions_.resize(lanes_ * records_.record_size());
     by_policy_.resize(lanes_);
@@ -96,16 +102,6 @@ Cem::Memory& Cem::memory_of(const DecisionPoint& point) {
     memory->kept.resize(static_cast<std::size_t>(options_.kept));
     memory->kept_values.resize(memory->kept.size());
     return *memory;
-}
-
-// Plans get so many steps: those that come new do nothing.
-void Cem::set_steps(std::int64_t steps) {
-    steps_ = steps;
-    const auto rows = static_cast<std::size_t>(steps);
-    for (Plan& plan : plans_) {
-        plan.numbers.resize(rows * default_numbers_.size());
-        plan.indices.resize(rows * default_indices_.size());
-    }
 }
 
 namespace {
@@ -128,34 +124,37 @@ void Cem::end_by_noop(Plan& plan, std::int64_t first, std::int64_t steps) const 
     fill_rows(plan.indices, begin, end, default_indices_);
 }
 
+// Plans of as many steps as plans_ has.
 void Cem::make_population(Memory& memory, const DecisionPoint& point, RandomStream& stream,
                           BudgetMeter& meter) {
+    memory.distribution.draw(stream, noise_, plans_);
+    std::ranges::fill(origins_, Origin::Sample);
     std::size_t next = 0;
-    const auto add = [&](Origin origin) -> Plan* {
-        if (next == population_) return nullptr;
+    const auto take = [&](Origin origin) {
+        if (next == population_) return false;
         origins_[next] = origin;
-        return &plans_[next++];
+        return true;
     };
-    for (std::size_t k = 0; k < memory.kept_count; ++k)
-        if (Plan* const plan = add(Origin::Kept)) {
-            plan->numbers = memory.kept[k].numbers;
-            plan->indices = memory.kept[k].indices;
-        }
-    if (base_)
-        if (Plan* const plan = add(Origin::Policy)) record_policy(point, *plan, meter);
-    if (Plan* const plan = add(Origin::Noop)) end_by_noop(*plan, 0, steps_);
-    if (Plan* const plan = add(Origin::Middle)) memory.distribution.middle(*plan);
-    memory.distribution.prepare();
-    for (std::size_t sample = 0; Plan* const plan = add(Origin::Sample); ++sample)
-        memory.distribution.draw(
-            stream,
-            options_.correlation < 0 ? mixture[sample % mixture.size()] : options_.correlation,
-            *plan);
+    for (std::size_t k = 0; k < memory.kept_count && take(Origin::Kept); ++k)
+        plans_.put(next++, memory.kept[k]);
+    if (base_ && take(Origin::Policy)) {
+        record_policy(point, meter);
+        plans_.put(next++, plan_);
+    }
+    if (take(Origin::Noop)) {
+        end_by_noop(plan_, 0, memory.horizon);
+        plans_.put(next++, plan_);
+    }
+    if (take(Origin::Middle)) {
+        end_by_noop(plan_, 0, memory.horizon);
+        memory.distribution.middle(plan_);
+        plans_.put(next++, plan_);
+    }
 }
 
-void Cem::record_policy(const DecisionPoint& point, Plan& plan, BudgetMeter& meter) {
-    const auto rows = static_cast<std::size_t>(steps_);
-    end_by_noop(plan, 0, steps_);
+void Cem::record_policy(const DecisionPoint& point, BudgetMeter& meter) {
+    const std::size_t rows = plans_.steps();
+    end_by_noop(plan_, 0, static_cast<std::int64_t>(rows));
     recording_->begin(point.batch, point.place, std::span(streams_).first(1));
     recorder_->begin(point.episode, point.step, point.horizon, std::span(streams_).first(1));
     constexpr std::uint8_t wanted[] = {1};
@@ -163,80 +162,95 @@ void Cem::record_policy(const DecisionPoint& point, Plan& plan, BudgetMeter& met
         recorder_->act(*recording_, wanted, actions_.data(), point.stops);
         records_.read(actions_.data(), rows_.data());
         solvers::read_action(space_, rows_.data(),
-                             plan.numbers.data() + t * default_numbers_.size(),
-                             plan.indices.data() + t * default_indices_.size());
+                             plan_.numbers.data() + t * default_numbers_.size(),
+                             plan_.indices.data() + t * default_indices_.size());
         recording_->step(actions_.data());
         meter.add_steps(1);
     }
 }
 
-// New stream, the same for all plans: what differs is theirs.
-void Cem::draw_streams(RandomStream& stream) {
+// New streams, the same for all of so many plans: what differs is theirs.
+void Cem::draw_streams(RandomStream& stream, std::size_t plans) {
     for (std::size_t k = 0; k < lanes_; ++k)
-        streams_[k] = k < scenarios_ ? stream.bits() : streams_[k - scenarios_];
+        streams_[k] = k % plans == 0 ? stream.bits() : streams_[k - 1];
 }
 
-void Cem::write_actions(std::span<const std::uint32_t> plans, std::int64_t step) {
+// The plans once, and copies of these for their other draws of luck.
+void Cem::write_actions(std::span<const std::uint32_t> plans, std::size_t step) {
+    plan_actions_.write(plans_, step, plans, actions_.data());
+    const std::size_t count = plans.empty() ? population_ : plans.size();
+    const std::size_t written = count * records_.record_size();
+    for (std::size_t begin = written; begin < actions_.size(); begin += written)
+        std::copy_n(actions_.data(), std::min(written, actions_.size() - begin),
+                    actions_.data() + begin);
+}
+
+// Most actions are legal most of the time, so that rows of values are made only where some are not.
+void Cem::make_legal() {
+    solvers::require_done(simulator_, simulator_.violated_preconditions(
+                                          futures_.batch(), actions_.data(), violated_.data()));
+    if (std::ranges::all_of(violated_, [](std::int32_t first) { return first < 0; })) return;
     const auto columns = static_cast<std::size_t>(space_.column_count);
-    const auto row = static_cast<std::size_t>(step);
-    for (std::size_t k = 0; k < lanes_; ++k) {
-        float* const values = rows_.data() + k * columns;
-        if (k > 0 && plans[k] == plans[k - 1]) {
-            std::copy_n(values - columns, columns, values);
-            continue;
-        }
-        const Plan& plan = plans_[plans[k]];
-        solvers::write_action(space_, plan.numbers.data() + row * default_numbers_.size(),
-                              plan.indices.data() + row * default_indices_.size(), values);
-    }
+    for (std::size_t k = 0; k < lanes_; ++k)
+        records_.read(actions_.data() + k * records_.record_size(), rows_.data() + k * columns);
+    solvers::repair_actions(simulator_, space_, records_, futures_.batch(), rows_.data(),
+                            actions_.data(), repair_);
 }
 
 std::int64_t Cem::play(const DecisionPoint& point, std::span<const std::uint32_t> plans,
                        std::int64_t steps, BudgetMeter& meter) {
-    const auto columns = static_cast<std::size_t>(space_.column_count);
-    const std::size_t size = records_.record_size();
     const bool has_policy = std::ranges::find(by_policy_, 1) != by_policy_.end();
     futures_.begin(point.batch, point.place, streams_);
     if (has_policy) base_->begin(point.episode, point.step, point.horizon, streams_);
     for (std::int64_t t = 0; t < steps && futures_.any_running(); ++t) {
-        write_actions(plans, t);
-        const bool needs_records = t == 0 || has_policy || space_.may_be_illegal;
-        if (needs_records)
-            for (std::size_t k = 0; k < lanes_; ++k)
-                records_.write(rows_.data() + k * columns, actions_.data() + k * size);
-        if (has_policy) {
-            base_->act(futures_, by_policy_, actions_.data(), point.stops);
-            for (std::size_t k = 0; k < lanes_; ++k)
-                if (by_policy_[k])
-                    records_.read(actions_.data() + k * size, rows_.data() + k * columns);
-        }
-        if (space_.may_be_illegal)
-            solvers::repair_actions(simulator_, space_, records_, futures_.batch(), rows_.data(),
-                                    actions_.data(), repair_);
-        if (t == 0)
-            for (std::size_t k = 0; k < lanes_; ++k)
-                std::copy_n(actions_.data() + k * size, size, firsts_.data() + plans[k] * size);
+        write_actions(plans, static_cast<std::size_t>(t));
+        if (has_policy) base_->act(futures_, by_policy_, actions_.data(), point.stops);
+        if (space_.may_be_illegal) make_legal();
+        if (t == 0) note_first_actions(plans);
         if (t % 4 == 0 && meter.is_late()) return t;
-        if (needs_records)
-            futures_.step(actions_.data());
-        else
-            futures_.step_values(rows_.data());
+        futures_.step(actions_.data());
         meter.add_steps(futures_.stepped());
     }
     return steps;
 }
 
+// All draws of luck of a plan begin in the same state, so that they have the same first action.
+void Cem::note_first_actions(std::span<const std::uint32_t> plans) {
+    const std::size_t size = records_.record_size();
+    const std::size_t count = plans.empty() ? population_ : plans.size();
+    for (std::size_t k = 0; k < count; ++k)
+        std::copy_n(actions_.data() + k * size, size,
+                    firsts_.data() + (plans.empty() ? k : plans[k]) * size);
+}
+
 void Cem::rank() {
     for (std::size_t c = 0; c < population_; ++c) {
         const auto found = mean_and_error(
-            scenarios_, [&](std::size_t s) { return futures_.value(c * scenarios_ + s); });
+            scenarios_, [&](std::size_t s) { return futures_.value(s * population_ + c); });
         values_[c] = found.mean;
         errors_[c] = found.error;
     }
-    std::iota(order_.begin(), order_.end(), std::size_t{0});
-    std::ranges::sort(order_, [&](std::size_t a, std::size_t b) {
-        return values_[a] != values_[b] ? values_[a] > values_[b] : a < b;
-    });
+    sort_best();
+}
+
+// As far as the order counts: mppi asks for all of it, the others for the best and the middle.
+void Cem::sort_best() {
+    const auto at = [&](std::size_t place) {
+        return ranked_.begin() + static_cast<std::ptrdiff_t>(std::min(place, population_));
+    };
+    ranked_.clear();
+    for (std::size_t c = 0; c < population_; ++c) ranked_.emplace_back(-values_[c], c);
+    const std::size_t middle = options_.weights == Weights::Mppi ? 0 : population_ / 2;
+    const std::size_t wanted =
+        std::max({elites(), static_cast<std::size_t>(options_.kept), most_compared});
+    std::ranges::nth_element(ranked_, at(middle));
+    std::ranges::partial_sort(ranked_.begin(), at(std::min(wanted, middle)), at(middle));
+    if (wanted > middle) std::ranges::sort(at(middle), ranked_.end());
+    for (std::size_t k = 0; k < population_; ++k) order_[k] = ranked_[k].second;
+}
+
+std::size_t Cem::elites() const {
+    return static_cast<std::size_t>(std::ceil(options_.elites * static_cast<double>(population_)));
 }
 
 // Toward the elites, of which each is better than the middle of the population: where most are
@@ -247,10 +261,8 @@ void Cem::refit(Memory& memory) {
     fitted_.clear();
     weights_.clear();
     if (options_.weights == Weights::Elites) {
-        const auto most =
-            static_cast<std::size_t>(std::ceil(options_.elites * static_cast<double>(population_)));
-        for (std::size_t k = 0; k < most && values_[order_[k]] > median; ++k) {
-            fitted_.push_back(&plans_[order_[k]]);
+        for (std::size_t k = 0; k < elites() && values_[order_[k]] > median; ++k) {
+            fitted_.push_back(order_[k]);
             weights_.push_back(1);
         }
     } else {
@@ -261,20 +273,21 @@ void Cem::refit(Memory& memory) {
         const double scale = std::max(
             options_.temperature * spread.error * std::sqrt(static_cast<double>(finite)), 1e-300);
         for (std::size_t k = 0; k < static_cast<std::size_t>(finite); ++k) {
-            fitted_.push_back(&plans_[order_[k]]);
+            fitted_.push_back(order_[k]);
             weights_.push_back(std::exp((values_[order_[k]] - best) / scale));
         }
     }
     const double sum = std::accumulate(weights_.begin(), weights_.end(), 0.0);
     for (double& weight : weights_) weight /= sum;
-    memory.distribution.fit(fitted_, weights_, options_.memory, options_.weights == Weights::Mppi);
+    memory.distribution.fit(plans_, fitted_, weights_, options_.memory,
+                            options_.weights == Weights::Mppi);
 }
 
 void Cem::keep_best(Memory& memory) {
     memory.kept_count = std::min(memory.kept.size(), population_);
     for (std::size_t k = 0; k < memory.kept_count; ++k) {
-        memory.kept[k].numbers = plans_[order_[k]].numbers;
-        memory.kept[k].indices = plans_[order_[k]].indices;
+        end_by_noop(memory.kept[k], static_cast<std::int64_t>(plans_.steps()), memory.horizon);
+        plans_.get(order_[k], memory.kept[k]);
         memory.kept_values[k] = {values_[order_[k]], errors_[order_[k]]};
     }
 }
@@ -316,12 +329,12 @@ void Cem::decide(const DecisionPoint& point, std::byte* action, Explanation* exp
     double seconds = 0;
     do {
         const double before = meter.seconds();
-        set_steps(memory.horizon);
-        draw_streams(stream);
-        make_population(memory, point, stream, meter);
         const std::int64_t affordable_steps = std::max<std::int64_t>(1, meter.steps_left() / lanes);
         const std::int64_t wanted = std::min({point.left, memory.horizon, affordable_steps});
-        const std::int64_t made = play(point, plan_of_lane_, wanted, meter);
+        plans_.set_steps(wanted);
+        draw_streams(stream, population_);
+        make_population(memory, point, stream, meter);
+        const std::int64_t made = play(point, {}, wanted, meter);
         if (made < wanted && depth > 0) {
             rank_kept(memory);
             break;
@@ -337,15 +350,14 @@ void Cem::decide(const DecisionPoint& point, std::byte* action, Explanation* exp
             memory.horizon = std::min({2 * memory.horizon, point.left, longest_lookahead});
             memory.distribution.extend(memory.horizon);
             for (std::size_t k = 0; k < memory.kept_count; ++k)
-                end_by_noop(memory.kept[k], steps_, memory.horizon);
+                end_by_noop(memory.kept[k], wanted, memory.horizon);
         }
     } while (meter.has_room(lanes * depth + comparison(depth), compares ? seconds : 0));
 
     Choice chosen{order_.front(), values_[order_.front()], errors_[order_.front()],
                   static_cast<std::int64_t>(scenarios_)};
     if (compares && depth > 0 && !meter.is_late() && meter.steps_left() >= comparison(depth)) {
-        steps_ = std::min(steps_, depth);
-        chosen = compare(point, stream, meter);
+        chosen = compare(point, depth, stream, meter);
         const auto place = std::ranges::find(order_, chosen.plan);
         std::rotate(order_.begin(), place, place + 1);
         keep_best(memory);

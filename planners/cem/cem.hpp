@@ -4,7 +4,10 @@
 #pragma once
 
 #include "planners/cem/cem_options.hpp"
+#include "planners/cem/plan_actions.hpp"
 #include "planners/cem/plan_distribution.hpp"
+#include "planners/cem/plan_noise.hpp"
+#include "planners/cem/population.hpp"
 #include "planners/planner/episode_memories.hpp"
 #include "planners/planner/planner.hpp"
 #include "planners/simulation/base_policy.hpp"
@@ -22,6 +25,9 @@
 #include <vector>
 
 namespace rddlc::planners {
+
+// Plans whose comparison ends a decision, besides no-op, the policy and the middle.
+inline constexpr std::size_t most_compared = 8;
 
 class Cem : public Planner {
   public:
@@ -46,23 +52,28 @@ class Cem : public Planner {
     };
 
     Memory& memory_of(const DecisionPoint& point);
-    void set_steps(std::int64_t steps);
     void end_by_noop(Plan& plan, std::int64_t first, std::int64_t steps) const;
     void make_population(Memory& memory, const DecisionPoint& point, RandomStream& stream,
                          BudgetMeter& meter);
-    void record_policy(const DecisionPoint& point, Plan& plan, BudgetMeter& meter);
-    // Plays lane k by the plan plans[k]; the steps that were made, fewer where time is up.
+    void record_policy(const DecisionPoint& point, BudgetMeter& meter);
+    // Plays these plans (none: all) in turn, lane after lane, as often as there are lanes for. The
+    // steps that were made, fewer where time is up.
     std::int64_t play(const DecisionPoint& point, std::span<const std::uint32_t> plans,
                       std::int64_t steps, BudgetMeter& meter);
-    void write_actions(std::span<const std::uint32_t> plans, std::int64_t step);
-    void play_tail(const DecisionPoint& point, BudgetMeter& meter);
-    void draw_streams(RandomStream& stream);
+    void write_actions(std::span<const std::uint32_t> plans, std::size_t step);
+    void make_legal();
+    void note_first_actions(std::span<const std::uint32_t> plans);
+    void play_tail(const DecisionPoint& point, std::int64_t steps, BudgetMeter& meter);
+    void draw_streams(RandomStream& stream, std::size_t plans);
     void rank();
+    void sort_best();
+    std::size_t elites() const;
     void rank_kept(const Memory& memory);
     void refit(Memory& memory);
     void keep_best(Memory& memory);
     bool needs_more_steps(const Memory& memory, std::int64_t left) const;
-    Choice compare(const DecisionPoint& point, RandomStream& stream, BudgetMeter& meter);
+    Choice compare(const DecisionPoint& point, std::int64_t steps, RandomStream& stream,
+                   BudgetMeter& meter);
     void note_candidates(Explanation& explanation, const Choice& chosen) const;
     const std::byte* first_action(std::size_t plan) const;
     void move_on(Memory& memory);
@@ -77,26 +88,29 @@ class Cem : public Planner {
     std::optional<BasePolicy> base_, recorder_;  // of all lanes; of one environment
     std::optional<Futures> recording_;
     EpisodeMemories<Memory> memories_;
-    std::int64_t steps_ = 0;  // of each plan
     std::vector<float> default_numbers_;
     std::vector<std::int32_t> default_indices_;
 
-    // The population.
-    std::vector<Plan> plans_;
+    // The population, and one plan by itself.
+    Population plans_;
+    PlanNoise noise_;
+    PlanActions plan_actions_;
+    Plan plan_;
     std::vector<Origin> origins_;
     std::vector<double> values_, errors_;
-    std::vector<std::size_t> order_;  // the best first
-    std::vector<std::byte> firsts_;   // action records of each plan's first step
+    std::vector<std::size_t> order_;                      // the best first
+    std::vector<std::pair<double, std::size_t>> ranked_;  // a value's negative, and its plan
+    std::vector<std::byte> firsts_;  // action records of each plan's first step
     // The lanes.
-    std::vector<std::uint32_t> plan_of_lane_, compared_of_lane_;
     std::vector<std::uint64_t> streams_;
+    std::vector<std::int32_t> violated_;
     std::vector<float> rows_;
     std::vector<std::byte> actions_;
     std::vector<std::uint8_t> by_policy_;
     // Buffers of a fit, and of a comparison.
-    std::vector<const Plan*> fitted_;
+    std::vector<std::size_t> fitted_;
     std::vector<double> weights_;
-    std::vector<std::size_t> compared_;
+    std::vector<std::uint32_t> compared_;
     std::vector<double> compared_values_, compared_errors_;
 };
 

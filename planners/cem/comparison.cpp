@@ -9,18 +9,16 @@ namespace rddlc::planners {
 
 namespace {
 
-// Plans whose comparison ends a decision, besides no-op, the policy and the middle.
-constexpr std::size_t most_compared = 8;
 // Standard errors by which a plan has to be better than the policy to be taken in its place.
 constexpr double doubt = 1;
 
 }  // namespace
 
 // After the plans comes what the policy does.
-void Cem::play_tail(const DecisionPoint& point, BudgetMeter& meter) {
+void Cem::play_tail(const DecisionPoint& point, std::int64_t steps, BudgetMeter& meter) {
     if (!base_ || point.left == no_end) return;
     std::ranges::fill(by_policy_, 1);
-    for (std::int64_t t = steps_; t < point.left && futures_.any_running(); ++t) {
+    for (std::int64_t t = steps; t < point.left && futures_.any_running(); ++t) {
         if (meter.is_late()) return;
         base_->act(futures_, by_policy_, actions_.data(), point.stops);
         futures_.step(actions_.data());
@@ -30,10 +28,12 @@ void Cem::play_tail(const DecisionPoint& point, BudgetMeter& meter) {
 
 // Compares the best plans, no-op, the policy and the middle, with random streams that none of them
 // was selected by.
-Cem::Choice Cem::compare(const DecisionPoint& point, RandomStream& stream, BudgetMeter& meter) {
-    compared_.assign(order_.begin(), order_.begin() + static_cast<std::ptrdiff_t>(
-                                                          std::min(most_compared, population_)));
-    for (std::size_t c = 0; c < population_; ++c)
+Cem::Choice Cem::compare(const DecisionPoint& point, std::int64_t steps, RandomStream& stream,
+                         BudgetMeter& meter) {
+    compared_.clear();
+    for (std::size_t k = 0; k < std::min(most_compared, population_); ++k)
+        compared_.push_back(static_cast<std::uint32_t>(order_[k]));
+    for (std::uint32_t c = 0; c < population_; ++c)
         if (origins_[c] != Origin::Sample && origins_[c] != Origin::Kept &&
             std::ranges::find(compared_, c) == compared_.end())
             compared_.push_back(c);
@@ -42,15 +42,13 @@ Cem::Choice Cem::compare(const DecisionPoint& point, RandomStream& stream, Budge
                         static_cast<std::int64_t>(scenarios_)};
     if (draws == 0) return unsure;
     std::size_t policy = count;
+    draw_streams(stream, count);
     for (std::size_t k = 0; k < lanes_; ++k) {
-        const std::size_t c = compared_[k % count];
-        compared_of_lane_[k] = static_cast<std::uint32_t>(c);
-        by_policy_[k] = origins_[c] == Origin::Policy;
-        streams_[k] = k % count == 0 ? stream.bits() : streams_[k - 1];
+        by_policy_[k] = origins_[compared_[k % count]] == Origin::Policy;
         if (by_policy_[k]) policy = k % count;
     }
-    const bool is_done = play(point, compared_of_lane_, steps_, meter) == steps_;
-    if (is_done) play_tail(point, meter);
+    const bool is_done = play(point, compared_, steps, meter) == steps;
+    if (is_done) play_tail(point, steps, meter);
     std::ranges::fill(by_policy_, 0);
     if (!is_done || meter.is_late()) return unsure;
 

@@ -1,6 +1,7 @@
 #include "planners/cem/plan_distribution.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 namespace rddlc::planners {
@@ -18,18 +19,6 @@ constexpr float shifted_share = 0.1f;
 // The chance that a first sub-action stops.
 constexpr float first_stop = 0.2f;
 
-// The share of the normal distribution below x, within a hundredth.
-float share_below(float x) {
-    return 1 / (1 + std::exp(-1.702f * x));
-}
-
-std::int32_t place_in(const float* cumulative, std::size_t count, float share) {
-    const float* const end = cumulative + count;
-    const float* const found = std::upper_bound(cumulative, end, share * end[-1]);
-    return static_cast<std::int32_t>(
-        std::min<std::ptrdiff_t>(found - cumulative, static_cast<std::ptrdiff_t>(count) - 1));
-}
-
 bool is_changed(const ActionSpace& space, const std::int32_t* sub_actions, int count, int column) {
     for (int p = 0; p < count; ++p)
         if (space.choices[static_cast<std::size_t>(sub_actions[p])].column == column) return true;
@@ -39,12 +28,12 @@ bool is_changed(const ActionSpace& space, const std::int32_t* sub_actions, int c
 }  // namespace
 
 Distribution::Distribution(const ActionSpace& space, Spread spread)
-    : space_(space),
+    : loops_(plan_loops()),
+      space_(space),
       spread_(spread),
       first_means_(reals(), 0.0f),
       first_probabilities_(logits()),
-      fitted_(logits()),
-      latent_(reals() + indices()) {
+      fitted_(logits()) {
     if (space.max_sub_actions > 0 && logits() > 1) {
         std::ranges::fill(first_probabilities_,
                           (1 - first_stop) / static_cast<float>(logits() - 1));
@@ -70,7 +59,6 @@ void Distribution::extend(std::int64_t steps) {
     means_.resize(rows * reals());
     deviations_.resize(means_.size());
     probabilities_.resize(rows * logits());
-    cumulative_.resize(probabilities_.size());
     begin_steps(before);
 }
 
@@ -95,64 +83,62 @@ void Distribution::shift() {
     begin_steps(steps_ - 1);
 }
 
-void Distribution::prepare() {
-    const auto add_up = [&](std::size_t first, std::size_t count) {
-        float sum = 0;
-        for (std::size_t k = first; k < first + count; ++k)
-            cumulative_[k] = sum += probabilities_[k];
-    };
-    for (std::size_t t = 0; t < static_cast<std::size_t>(steps_); ++t) {
-        if (space_.max_sub_actions > 0) add_up(t * logits(), logits());
-        for (const CategoryHead& head : space_.categories)
-            add_up(t * logits() + static_cast<std::size_t>(head.first_logit),
-                   static_cast<std::size_t>(head.count));
-    }
-}
-
-void Distribution::draw(RandomStream& stream, double correlation, Plan& plan) const {
-    const auto old = static_cast<float>(correlation);
-    const auto fresh = static_cast<float>(std::sqrt(1 - correlation * correlation));
-    float* const latent = latent_.data();
-    for (std::size_t t = 0; t < static_cast<std::size_t>(steps_); ++t) {
-        for (float& noise : latent_)
-            noise = t == 0 ? stream.bell() : old * noise + fresh * stream.bell();
-        const std::size_t row = t * reals();
+void Distribution::draw(RandomStream& stream, PlanNoise& noise, Population& population) {
+    const std::size_t plans = population.plans();
+    noise.restart();
+    for (std::size_t t = 0; t < population.steps(); ++t) {
+        noise.next_step(stream);
         for (std::size_t r = 0; r < reals(); ++r) {
-            float number = means_[row + r] + deviations_[row + r] * latent[r];
-            if (space_.reals[r].range == RealHead::Range::Bounded)
-                number = std::clamp(number, -1.0f, 1.0f);
-            plan.numbers[row + r] = number;
+            const float mean = means_[t * reals() + r], deviation = deviations_[t * reals() + r];
+            loops_.scale_numbers(mean, deviation, space_.reals[r].range == RealHead::Range::Bounded,
+                                 noise.numbers(r), plans, population.numbers(t, r));
         }
-        const float* const cumulative = cumulative_.data() + t * logits();
-        std::int32_t* const chosen = plan.indices.data() + t * indices();
-        if (space_.max_sub_actions > 0)
-            draw_sub_actions(latent + reals(), cumulative, chosen);
-        else
-            draw_categories(latent + reals(), cumulative, chosen);
+        for (std::size_t h = 0; h < space_.categories.size(); ++h)
+            draw_index(t, space_.categories[h].first_logit, space_.categories[h].count,
+                       noise.ranks(h), plans, population.indices(t, h));
+        const auto positions = static_cast<std::size_t>(space_.max_sub_actions);
+        for (std::size_t p = 0; p < positions; ++p)
+            draw_index(t, 0, space_.logit_count, noise.ranks(p), plans, population.indices(t, p));
+        if (positions > 1) leave_out_repetitions(t, population);
     }
 }
 
-void Distribution::draw_categories(const float* latent, const float* cumulative,
-                                   std::int32_t* chosen) const {
-    for (std::size_t h = 0; h < space_.categories.size(); ++h) {
-        const CategoryHead& head = space_.categories[h];
-        chosen[h] = place_in(cumulative + head.first_logit, static_cast<std::size_t>(head.count),
-                             share_below(latent[h]));
+void Distribution::draw_index(std::size_t step, int first_logit, int count,
+                              const std::int32_t* ranks, std::size_t plans, std::int32_t* chosen) {
+    const float* const probabilities =
+        probabilities_.data() + step * logits() + static_cast<std::size_t>(first_logit);
+    double sum = 0, below = 0;
+    for (int k = 0; k < count; ++k) sum += static_cast<double>(probabilities[k]);
+    thresholds_.clear();
+    for (int k = 0; k + 1 < count; ++k) {
+        below += static_cast<double>(probabilities[k]);
+        thresholds_.push_back(static_cast<std::int32_t>(below / sum * rank_count));
     }
+    // No rank reaches those that fill up the halves.
+    thresholds_.resize(std::bit_ceil(thresholds_.size() + 1) - 1, rank_count);
+    loops_.count_reached(thresholds_.data(), thresholds_.size(), ranks, plans, chosen);
 }
 
-// A sub-action that changes the same value as one before it is left out.
-void Distribution::draw_sub_actions(const float* latent, const float* cumulative,
-                                    std::int32_t* chosen) const {
-    int count = 0;
-    for (int p = 0; p < space_.max_sub_actions; ++p) {
-        const std::int32_t choice =
-            place_in(cumulative, logits(), share_below(latent[static_cast<std::size_t>(p)]));
-        if (choice == 0) break;
-        const int column = space_.choices[static_cast<std::size_t>(choice)].column;
-        if (!is_changed(space_, chosen, count, column)) chosen[count++] = choice;
+// The first sub-action that stops is the last one, and a sub-action that changes the same value as
+// one before it is left out.
+void Distribution::leave_out_repetitions(std::size_t step, Population& population) const {
+    const auto positions = static_cast<std::size_t>(space_.max_sub_actions);
+    const auto column_of = [&](std::size_t position, std::size_t plan) {
+        const std::int32_t choice = population.indices(step, position)[plan];
+        return space_.choices[static_cast<std::size_t>(choice)].column;
+    };
+    for (std::size_t plan = 0; plan < population.plans(); ++plan) {
+        std::size_t count = 0;
+        for (std::size_t p = 0; p < positions; ++p) {
+            const std::int32_t choice = population.indices(step, p)[plan];
+            if (choice == 0) break;
+            const int column = column_of(p, plan);
+            std::size_t same = 0;
+            while (same < count && column_of(same, plan) != column) ++same;
+            if (same == count) population.indices(step, count++)[plan] = choice;
+        }
+        for (std::size_t p = count; p < positions; ++p) population.indices(step, p)[plan] = 0;
     }
-    std::fill(chosen + count, chosen + space_.max_sub_actions, 0);
 }
 
 void Distribution::middle(Plan& plan) const {
@@ -181,26 +167,27 @@ void Distribution::middle(Plan& plan) const {
     }
 }
 
-void Distribution::fit(std::span<const Plan* const> plans, std::span<const double> weights,
-                       double memory, bool keeps_deviations) {
-    for (std::int64_t t = 0; t < steps_; ++t) {
-        fit_reals(t, plans, weights, memory, keeps_deviations);
-        if (logits() > 0) fit_indices(t, plans, weights, memory);
+void Distribution::fit(const Population& population, std::span<const std::size_t> plans,
+                       std::span<const double> weights, double memory, bool keeps_deviations) {
+    for (std::size_t t = 0; t < population.steps(); ++t) {
+        fit_reals(population, t, plans, weights, memory, keeps_deviations);
+        if (logits() > 0) fit_indices(population, t, plans, weights, memory);
     }
 }
 
-void Distribution::fit_reals(std::int64_t step, std::span<const Plan* const> plans,
-                             std::span<const double> weights, double memory,
-                             bool keeps_deviations) {
-    const std::size_t row = static_cast<std::size_t>(step) * reals();
-    for (std::size_t k = row; k < row + reals(); ++k) {
+void Distribution::fit_reals(const Population& population, std::size_t step,
+                             std::span<const std::size_t> plans, std::span<const double> weights,
+                             double memory, bool keeps_deviations) {
+    for (std::size_t r = 0; r < reals(); ++r) {
+        const float* const numbers = population.numbers(step, r);
         double mean = 0, square = 0;
         for (std::size_t c = 0; c < plans.size(); ++c)
-            mean += weights[c] * static_cast<double>(plans[c]->numbers[k]);
+            mean += weights[c] * static_cast<double>(numbers[plans[c]]);
         for (std::size_t c = 0; c < plans.size(); ++c) {
-            const double difference = static_cast<double>(plans[c]->numbers[k]) - mean;
+            const double difference = static_cast<double>(numbers[plans[c]]) - mean;
             square += weights[c] * difference * difference;
         }
+        const std::size_t k = step * reals() + r;
         means_[k] =
             static_cast<float>(memory * static_cast<double>(means_[k]) + (1 - memory) * mean);
         if (keeps_deviations) continue;
@@ -210,25 +197,28 @@ void Distribution::fit_reals(std::int64_t step, std::span<const Plan* const> pla
     }
 }
 
-void Distribution::fit_indices(std::int64_t step, std::span<const Plan* const> plans,
-                               std::span<const double> weights, double memory) {
-    const std::size_t row = static_cast<std::size_t>(step) * indices();
+void Distribution::fit_indices(const Population& population, std::size_t step,
+                               std::span<const std::size_t> plans, std::span<const double> weights,
+                               double memory) {
     std::ranges::fill(fitted_, 0.0f);
-    for (std::size_t c = 0; c < plans.size(); ++c) {
-        const std::int32_t* const chosen = plans[c]->indices.data() + row;
-        const auto weight = static_cast<float>(weights[c]);
-        for (std::size_t h = 0; h < space_.categories.size(); ++h)
-            fitted_[static_cast<std::size_t>(space_.categories[h].first_logit + chosen[h])] +=
-                weight;
-        for (int p = 0; p < space_.max_sub_actions; ++p) {
-            fitted_[static_cast<std::size_t>(chosen[p])] += weight;
-            if (chosen[p] == 0) break;
-        }
+    for (std::size_t h = 0; h < space_.categories.size(); ++h) {
+        const std::int32_t* const chosen = population.indices(step, h);
+        float* const shares = fitted_.data() + space_.categories[h].first_logit;
+        for (std::size_t c = 0; c < plans.size(); ++c)
+            shares[chosen[plans[c]]] += static_cast<float>(weights[c]);
     }
+    // A plan's sub-actions, down to the one that stops.
+    for (std::size_t c = 0; c < plans.size(); ++c)
+        for (int p = 0; p < space_.max_sub_actions; ++p) {
+            const auto chosen = static_cast<std::size_t>(
+                population.indices(step, static_cast<std::size_t>(p))[plans[c]]);
+            fitted_[chosen] += static_cast<float>(weights[c]);
+            if (chosen == 0) break;
+        }
     float sub_actions = 0;  // on average, with the one that stops
     if (space_.max_sub_actions > 0)
         for (const float share : fitted_) sub_actions += share;
-    float* const probabilities = probabilities_.data() + static_cast<std::size_t>(step) * logits();
+    float* const probabilities = probabilities_.data() + step * logits();
     for (std::size_t k = 0; k < logits(); ++k) {
         const float share = space_.max_sub_actions > 0 ? fitted_[k] / sub_actions : fitted_[k];
         const float fit = share + least_share * (first_probabilities_[k] - share);

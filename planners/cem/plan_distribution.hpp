@@ -1,20 +1,19 @@
-// Plans of actions as a search sees them, and the distribution that they are drawn from: for each
-// step normal numbers for reals and probabilities for categories or sub-actions (solvers/spaces).
+// The distribution that plans are drawn from: for each step normal numbers for reals, and
+// probabilities for categories or sub-actions.
 #pragma once
 
+#include "planners/cem/plan_loops.hpp"
+#include "planners/cem/plan_noise.hpp"
+#include "planners/cem/population.hpp"
 #include "planners/simulation/random_stream.hpp"
 #include "solvers/spaces/actions.hpp"
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
 
 namespace rddlc::planners {
-
-struct Plan {
-    std::vector<float> numbers;         // rows of real_count
-    std::vector<std::int32_t> indices;  // rows of index_count
-};
 
 struct Spread {
     double first = 1;      // deviation of reals in the first distribution
@@ -34,36 +33,39 @@ class Distribution {
     void shift();
     std::int64_t steps() const { return steps_; }
 
-    // Needed before a draw.
-    void prepare();
-    // Noise of two steps has this correlation.
-    void draw(RandomStream& stream, double correlation, Plan& plan) const;
+    // Draws the first steps of all plans of the population, as many as it has.
+    void draw(RandomStream& stream, PlanNoise& noise, Population& population);
+    // The likeliest plan, of as many steps as the distribution has.
     void middle(Plan& plan) const;
-    // Fits the distribution to the plans, by weights whose sum is 1. It keeps the share `memory` of
-    // its old parameters.
-    void fit(std::span<const Plan* const> plans, std::span<const double> weights, double memory,
-             bool keeps_deviations);
+    // Fits the first steps to some plans of a population, by weights whose sum is 1. It keeps the
+    // share `memory` of its old parameters.
+    void fit(const Population& population, std::span<const std::size_t> plans,
+             std::span<const double> weights, double memory, bool keeps_deviations);
 
   private:
     void begin_steps(std::int64_t from);
-    void draw_categories(const float* latent, const float* cumulative, std::int32_t* chosen) const;
-    void draw_sub_actions(const float* latent, const float* cumulative, std::int32_t* chosen) const;
-    void fit_reals(std::int64_t step, std::span<const Plan* const> plans,
-                   std::span<const double> weights, double memory, bool keeps_deviations);
-    void fit_indices(std::int64_t step, std::span<const Plan* const> plans,
-                     std::span<const double> weights, double memory);
+    void draw_index(std::size_t step, int first_logit, int count, const std::int32_t* ranks,
+                    std::size_t plans, std::int32_t* chosen);
+    void leave_out_repetitions(std::size_t step, Population& population) const;
+    void fit_reals(const Population& population, std::size_t step,
+                   std::span<const std::size_t> plans, std::span<const double> weights,
+                   double memory, bool keeps_deviations);
+    void fit_indices(const Population& population, std::size_t step,
+                     std::span<const std::size_t> plans, std::span<const double> weights,
+                     double memory);
     std::size_t reals() const { return static_cast<std::size_t>(space_.real_count()); }
     std::size_t indices() const { return static_cast<std::size_t>(space_.index_count()); }
     std::size_t logits() const { return static_cast<std::size_t>(space_.logit_count); }
 
+    const PlanLoops& loops_;
     const solvers::ActionSpace& space_;
     Spread spread_;
     std::int64_t steps_ = 0;
     std::vector<float> first_means_, first_probabilities_;  // of a step in a new episode
     std::vector<float> means_, deviations_;                 // rows of reals
-    std::vector<float> probabilities_, cumulative_;         // rows of logits
+    std::vector<float> probabilities_;                      // rows of logits
     std::vector<float> fitted_;                             // room for a row of logits
-    mutable std::vector<float> latent_;                     // noise of a step
+    std::vector<std::int32_t> thresholds_;                  // of ranks, between values
 };
 
 }  // namespace rddlc::planners

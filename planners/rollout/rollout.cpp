@@ -31,7 +31,7 @@ Rollout::Rollout(const PlannerContext& context, const RolloutOptions& options)
       records_(simulator_),
       action_size_(static_cast<std::size_t>(simulator_.problem->action_size)),
       actions_(FiniteActions::of(simulator_, space_, static_cast<std::size_t>(options.actions))),
-      continuations_(simulator_, lanes_of(options), context.horizon),
+      continuations_(simulator_, lanes_of(options), context.horizon, false),
       policy_(simulator_, *context.base, static_cast<std::int64_t>(continuations_.lanes())),
       random_(simulator_, solvers::random_policy(simulator_, options.seed), options.actions) {}
 

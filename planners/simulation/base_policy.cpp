@@ -38,17 +38,20 @@ void BasePolicy::restart(std::int64_t episode, std::int64_t horizon,
         std::copy_n(action, size, actions_.data() + k * size);
 }
 
-void BasePolicy::act(Futures& futures, std::span<const std::uint8_t> wanted, std::byte* actions,
-                     const solvers::Stops* stops) {
+void BasePolicy::act(Futures& futures, std::byte* actions, const solvers::Stops* stops) {
     solvers::Decision decision{futures.batch(), futures.running(), episodes_, steps_,
-                               actions_.data(), violated_,         false,     stops,
+                               actions,         violated_,         false,     stops,
                                horizon_};
     actor_(decision);
+    for (std::int64_t& step : steps_) step += 1;
+}
+
+void BasePolicy::act(Futures& futures, std::span<const std::uint8_t> wanted, std::byte* actions,
+                     const solvers::Stops* stops) {
+    act(futures, actions_.data(), stops);
     const auto size = static_cast<std::size_t>(simulator_.problem->action_size);
-    for (std::size_t k = 0; k < episodes_.size(); ++k) {
+    for (std::size_t k = 0; k < episodes_.size(); ++k)
         if (wanted[k]) std::copy_n(actions_.data() + k * size, size, actions + k * size);
-        steps_[k] += 1;
-    }
 }
 
 }  // namespace rddlc::planners

@@ -23,7 +23,10 @@ class BasePolicy {
                std::span<const std::uint64_t> numbers);
     void begin(std::int64_t episode, std::int64_t step, std::int64_t horizon,
                std::span<const std::uint64_t> numbers);
-    // Writes action records of those that `wanted` says, before a step of all.
+    // Writes action records of all lanes that run, before a step of all. The others have to
+    // hold records before.
+    void act(Futures& futures, std::byte* actions, const solvers::Stops* stops);
+    // The same for those that `wanted` says.
     void act(Futures& futures, std::span<const std::uint8_t> wanted, std::byte* actions,
              const solvers::Stops* stops);
 

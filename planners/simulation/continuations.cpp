@@ -7,7 +7,7 @@
 namespace rddlc::planners {
 
 Continuations::Continuations(const rddl_simulator& simulator, std::int64_t lanes,
-                             std::int64_t horizon)
+                             std::int64_t horizon, bool keeps_first_states)
     : simulator_(simulator),
       state_size_(static_cast<std::size_t>(simulator.problem->state_size)),
       action_size_(static_cast<std::size_t>(simulator.problem->action_size)),
@@ -15,11 +15,10 @@ Continuations::Continuations(const rddl_simulator& simulator, std::int64_t lanes
       states_(futures_.running().size() * state_size_),
       actions_(futures_.running().size() * action_size_),
       first_actions_(actions_.size()),
-      first_states_(states_.size()),
+      first_states_(keeps_first_states ? states_.size() : 0),
       steps_(futures_.running().size()),
       streams_(steps_.size()),
       wanted_(steps_.size()),
-      all_wanted_(steps_.size(), 1),
       first_rewards_(steps_.size()) {}
 
 // Lanes without a start are as the decision, and run no further.
@@ -54,16 +53,20 @@ bool Continuations::run(const DecisionPoint& point, std::span<const Start> start
     begin(point, starts);
     policy.begin(point.episode, steps_, point.horizon, streams_);
     for (depth_ = 0; futures_.any_running(); ++depth_) {
-        policy.act(futures_, depth_ == 0 ? wanted_ : all_wanted_, actions_.data(), point.stops);
+        if (depth_ == 0)
+            policy.act(futures_, wanted_, actions_.data(), point.stops);
+        else
+            policy.act(futures_, actions_.data(), point.stops);
         if (depth_ == 0) first_actions_ = actions_;
         if (depth_ % 4 == 0 && meter.is_late()) return false;
         futures_.step(actions_.data());
         const auto idle = static_cast<std::int64_t>(depth_ == 0 ? lanes() - starts.size() : 0);
         meter.add_steps(futures_.stepped() - idle);
         if (depth_ > 0) continue;
-        solvers::require_done(
-            simulator_,
-            simulator_.get_state(futures_.batch(), 0, futures_.count(), first_states_.data()));
+        if (!first_states_.empty())
+            solvers::require_done(
+                simulator_,
+                simulator_.get_state(futures_.batch(), 0, futures_.count(), first_states_.data()));
         for (std::size_t k = 0; k < lanes(); ++k) first_rewards_[k] = futures_.reward(k);
     }
     return true;

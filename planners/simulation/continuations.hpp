@@ -25,7 +25,9 @@ struct Start {
 
 class Continuations {
   public:
-    Continuations(const rddl_simulator& simulator, std::int64_t lanes, std::int64_t horizon);
+    // `keeps_first_states` is for callers that ask for them.
+    Continuations(const rddl_simulator& simulator, std::int64_t lanes, std::int64_t horizon,
+                  bool keeps_first_states);
 
     std::size_t lanes() const { return static_cast<std::size_t>(futures_.count()); }
     // Plays at most `lanes` starts. False if time was up: then the values are those of fewer steps.
@@ -57,7 +59,7 @@ class Continuations {
     std::vector<std::byte> states_, actions_, first_actions_, first_states_;
     std::vector<std::int64_t> steps_;
     std::vector<std::uint64_t> streams_;
-    std::vector<std::uint8_t> wanted_, all_wanted_;  // of the policy
+    std::vector<std::uint8_t> wanted_;  // first actions, of the policy
     std::vector<double> first_rewards_;
     std::int64_t depth_ = 0;
 };

@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -24,6 +25,7 @@ class FiniteActions {
 
     std::size_t count() const { return count_; }
     const std::byte* record(std::size_t action) const { return records_.data() + action * size_; }
+    std::span<const std::byte> records() const { return records_; }
     // Whether there are states in which some of them violate preconditions.
     bool may_be_illegal() const { return asks_; }
     // Whether each of them satisfies the preconditions where environment `place` of the batch

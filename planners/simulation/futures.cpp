@@ -42,7 +42,9 @@ void Futures::begin(const rddl_batch* from, std::int64_t place,
     look_at_causes();
     std::ranges::fill(returns_, 0.0);
     std::ranges::fill(cut_, std::uint8_t{0});
-    std::ranges::fill(limits_, std::numeric_limits<std::int64_t>::max());
+    std::ranges::fill(limits_, no_limit);
+    next_limit_ = no_limit;
+    made_ = 0;
     discount_ = 1;
 }
 
@@ -78,9 +80,37 @@ void Futures::step_values(const float* actions) {
     take_step();
 }
 
+// Loops without branches, where no episode ends, no reward is bad and no limit is reached, which is
+// most of the time. False, with nothing done, where that is not so.
+bool Futures::take_plain_step() {
+    if (made_ + 1 >= next_limit_) return false;
+    const std::size_t lanes = returns_.size();
+    std::uint8_t ends = 0;
+    for (std::size_t k = 0; k < lanes; ++k)
+        ends = static_cast<std::uint8_t>(ends | (running_[k] * causes_[k]));
+    if (ends != RDDL_RUNNING) return false;
+    // The batch reports rewards of 0 for those that have ended, but not for those that limits
+    // ended.
+    if (running_count_ < count())
+        for (std::size_t k = 0; k < lanes; ++k) rewards_[k] = running_[k] ? rewards_[k] : 0;
+    std::int64_t bad = 0;
+    for (const double reward : rewards_) bad += reward - reward == 0 ? 0 : 1;
+    if (bad > 0) return false;
+    const double discount = discount_;
+    for (std::size_t k = 0; k < lanes; ++k) returns_[k] += discount * rewards_[k];
+    return true;
+}
+
 void Futures::take_step() {
     stepped_ = running_count_;
+    if (!take_plain_step()) take_any_step();
+    made_ += 1;
+    discount_ *= simulator_.problem->discount;
+}
+
+void Futures::take_any_step() {
     running_count_ = 0;
+    next_limit_ = no_limit;
     for (std::size_t k = 0; k < running_.size(); ++k) {
         if (!running_[k]) {
             rewards_[k] = 0;
@@ -91,10 +121,10 @@ void Futures::take_step() {
         returns_[k] += discount_ * rewards_[k];
         last_rewards_[k] = rewards_[k];
         const bool goes_on = !is_bad && causes_[k] == RDDL_RUNNING;
-        cut_[k] = goes_on && --limits_[k] <= 0;
+        cut_[k] = goes_on && made_ + 1 >= limits_[k];
         running_count_ += running_[k] = goes_on && !cut_[k];
+        if (running_[k]) next_limit_ = std::min(next_limit_, limits_[k]);
     }
-    discount_ *= simulator_.problem->discount;
 }
 
 }  // namespace rddlc::planners

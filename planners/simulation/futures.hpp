@@ -6,8 +6,10 @@
 
 #include <rddl/simulator.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -24,9 +26,12 @@ class Futures {
     // The k-th goes on from states[k], after so many steps; those of lanes that are not wanted are
     // any that the problem has.
     void place(const std::byte* states, std::span<const std::int64_t> steps);
-    // Stops the k-th after so many steps from here; no caller reads what the batch does with it
+    // Stops the k-th after so many steps since begin; no caller reads what the batch does with it
     // then.
-    void set_limit(std::size_t k, std::int64_t steps) { limits_[k] = steps; }
+    void set_limit(std::size_t k, std::int64_t steps) {
+        limits_[k] = steps;
+        next_limit_ = std::min(next_limit_, steps);
+    }
     // A record for each, or a row of values.
     void step(const std::byte* actions);
     void step_values(const float* actions);
@@ -40,24 +45,29 @@ class Futures {
     std::int64_t stepped() const { return stepped_; }
     // The reward of the last step; 0 if the episode was over before.
     double reward(std::size_t k) const { return rewards_[k]; }
-    // The reward of the environment's own last step, and whether a limit ended it.
+    // Whether a limit has ended it, and the reward of the step that ended it.
     double last_reward(std::size_t k) const { return last_rewards_[k]; }
     bool is_cut(std::size_t k) const { return cut_[k] != 0; }
     // The discounted sum since the beginning; -inf after a fault or a reward that is not finite.
     double value(std::size_t k) const { return returns_[k]; }
 
   private:
+    static constexpr std::int64_t no_limit = std::numeric_limits<std::int64_t>::max();
     rddl_transition outputs();
     void look_at_causes();
     void take_step();
+    bool take_plain_step();
+    void take_any_step();
 
     const rddl_simulator& simulator_;
     solvers::BatchHandle batch_;
     std::vector<std::int64_t> sources_;
-    std::vector<std::int64_t> limits_;  // steps that are left
+    std::vector<std::int64_t> limits_;  // steps that it may make
     std::vector<double> rewards_, last_rewards_, returns_;
     std::vector<std::uint8_t> causes_, running_, cut_;
     std::int64_t running_count_ = 0, stepped_ = 0;
+    std::int64_t made_ = 0;               // steps since begin
+    std::int64_t next_limit_ = no_limit;  // the least one of those that run, or less
     double discount_ = 1;
 };
 

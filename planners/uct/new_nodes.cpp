@@ -13,6 +13,9 @@ namespace {
 
 // Draws of each action by which a state is known for one that nothing changes.
 constexpr std::size_t lock_draws = 64;
+// The part of the priors that the policy's likeliest action has by itself. A policy that learns
+// still tries other actions more often than they are worth.
+constexpr float likeliest_share = 0.5f;
 
 }  // namespace
 
@@ -20,9 +23,49 @@ bool Uct::value_new_nodes(const DecisionPoint& point, RandomStream& stream, Budg
                           std::size_t draws) {
     const bool is_done = is_determinised() ? value_by_determinisation(point, stream, meter)
                                            : value_by_policy(point, stream, meter, draws);
-    return is_done && (options_.policy.empty() || find_preferred(point, stream, meter));
+    return is_done && (options_.policy.empty() || find_priors(point, stream, meter));
 }
 
+bool Uct::find_priors(const DecisionPoint& point, RandomStream& stream, BudgetMeter& meter) {
+    if (!priors_) return find_preferred(point, stream, meter);
+    const auto lanes = static_cast<std::size_t>(judged_->count());
+    judged_states_.resize(lanes * state_size_);
+    judged_steps_.resize(lanes);
+    prior_rows_.resize(lanes * actions_.count());
+    for (std::size_t first = 0; first < new_nodes_.size(); first += lanes) {
+        if (meter.is_late()) return false;
+        const std::size_t count = std::min(lanes, new_nodes_.size() - first);
+        for (std::size_t k = 0; k < count; ++k) {
+            const NodeId id = new_nodes_[first + k];
+            std::copy_n(tree().state(id), state_size_, judged_states_.data() + k * state_size_);
+            judged_steps_[k] = tree().node(id).step;
+        }
+        solvers::require_done(
+            simulator_, simulator_.set_state(judged_->batch(), 0, static_cast<std::int64_t>(count),
+                                             judged_states_.data(), nullptr));
+        priors_(judged_->batch(), std::span(judged_steps_).first(count), prior_rows_.data());
+        for (std::size_t k = 0; k < count; ++k)
+            set_priors(tree().node(new_nodes_[first + k]),
+                       prior_rows_.data() + k * actions_.count());
+    }
+    return true;
+}
+
+// By logarithms of all actions, of which the node has some.
+void Uct::set_priors(Node& node, const float* logarithms) {
+    float most = -std::numeric_limits<float>::infinity(), sum = 0;
+    for (const Edge& edge : tree().edges(node)) most = std::max(most, logarithms[edge.action]);
+    for (Edge& edge : tree().edges(node)) {
+        edge.prior = std::exp(logarithms[edge.action] - most);
+        sum += edge.prior;
+    }
+    for (Edge& edge : tree().edges(node))
+        edge.prior = (1 - likeliest_share) * edge.prior / sum +
+                     (logarithms[edge.action] == most ? likeliest_share : 0);
+    node.has_priors = true;
+}
+
+// The policy's action has half of the prior, and all share the rest.
 bool Uct::find_preferred(const DecisionPoint& point, RandomStream& stream, BudgetMeter& meter) {
     for (std::size_t first = 0; first < new_nodes_.size(); first += continuations_.lanes()) {
         const std::size_t count = std::min(continuations_.lanes(), new_nodes_.size() - first);
@@ -36,11 +79,11 @@ bool Uct::find_preferred(const DecisionPoint& point, RandomStream& stream, Budge
         for (std::size_t k = 0; k < count; ++k) {
             Node& node = tree().node(new_nodes_[first + k]);
             const std::byte* const record = continuations_.first_action(k);
-            std::int32_t place = 0;
-            for (const Edge& edge : tree().edges(node)) {
-                if (std::equal(record, record + action_size_, actions_.record(edge.action)))
-                    node.preferred = place;
-                ++place;
+            for (Edge& edge : tree().edges(node)) {
+                const bool is_its =
+                    std::equal(record, record + action_size_, actions_.record(edge.action));
+                edge.prior = 0.5f / static_cast<float>(node.edge_count) + (is_its ? 0.5f : 0);
+                node.has_priors |= is_its;
             }
         }
     }

@@ -23,11 +23,10 @@ struct Node {
     std::int32_t draws = 0;  // that its value was found by, before it had edges with values
     std::int64_t step = 0;   // of the episode
     double value = 0;
-    std::int32_t best = -1;  // the edge, from 0, whose value is the node's; -1: no such edge
-    std::int32_t preferred =
-        -1;                  // the edge, from 0, of the action that a policy takes; -1: unknown
-    bool is_open = false;    // its edges have values
-    bool is_locked = false;  // whatever is done, the state and the reward stay: the value is exact
+    std::int32_t best = -1;   // the edge, from 0, whose value is the node's; -1: no such edge
+    bool is_open = false;     // its edges have values
+    bool has_priors = false;  // so have its edges
+    bool is_locked = false;   // whatever is done, the state and the reward stay: the value is exact
 };
 
 // An action in a state.
@@ -37,6 +36,7 @@ struct Edge {
     std::int32_t estimates = 0;          // draws that its first value was found by
     double estimate = 0, value = 0;
     double rewards = 0, returns = 0;  // sums over trials
+    float prior = 0;                  // of a policy: 0 .. 1
     std::int32_t first_outcome = -1, outcome_count = 0;
 
     std::int32_t weight() const { return started + (estimates > 0); }

@@ -90,7 +90,7 @@ Uct::Uct(const PlannerContext& context, const UctOptions& options)
       actions_(finite_actions(simulator_, options.actions)),
       initial_(initial_of(options, actions_.count())),
       trees_(simulator_, affordable_lanes(options, options.lanes), context.horizon),
-      continuations_(simulator_, leaf_lanes(options, actions_.count()), context.horizon),
+      continuations_(simulator_, leaf_lanes(options, actions_.count()), context.horizon, true),
       most_bytes_(static_cast<std::size_t>(context.memory_limit) / decision_share),
       most_kept_bytes_(static_cast<std::size_t>(context.memory_limit) / kept_share),
       memories_(context.environments),
@@ -100,9 +100,13 @@ Uct::Uct(const PlannerContext& context, const UctOptions& options)
       states_(trials_.size() * state_size_) {
     const auto lanes = static_cast<std::int64_t>(continuations_.lanes());
     if (is_determinised()) typical_steps_.emplace(simulator_, actions_, options.seed);
-    if (context.base)
+    if (context.base) {
         policies_.emplace_back(simulator_, *context.base, lanes);
-    else {
+        if (context.base->priors) {
+            priors_ = context.base->priors(lanes, actions_.records());
+            judged_.emplace(simulator_, lanes, context.horizon);
+        }
+    } else {
         policies_.emplace_back(simulator_, solvers::noop_policy(simulator_), lanes);
         policies_.emplace_back(simulator_, solvers::random_policy(simulator_, options.seed), lanes);
     }
@@ -206,7 +210,7 @@ double Uct::bonus(const Node& node) const {
 
 // Actions without a value come first. Then the best by value and by how little it was tried (UCB1).
 EdgeId Uct::choose_edge(const Node& node, RandomStream& stream) {
-    if (node.preferred >= 0) return choose_by_prior(node);
+    if (node.has_priors) return choose_by_prior(node);
     double all = 1;
     std::uint32_t untried = 0;
     EdgeId chosen = node.first_edge;
@@ -228,8 +232,7 @@ EdgeId Uct::choose_edge(const Node& node, RandomStream& stream) {
     return chosen;
 }
 
-// PUCT: the policy's action has half of the prior, and all share the rest. An action that was not
-// tried yet has the value of the node.
+// PUCT (Silver and others, 2017). An action that was not tried yet has the value of the node.
 EdgeId Uct::choose_by_prior(const Node& node) const {
     const auto edges = tree().edges(node);
     double all = 1;
@@ -238,8 +241,7 @@ EdgeId Uct::choose_by_prior(const Node& node) const {
     std::size_t chosen = 0;
     double best = -std::numeric_limits<double>::infinity();
     for (std::size_t e = 0; e < edges.size(); ++e) {
-        const bool is_preferred = e == static_cast<std::size_t>(node.preferred);
-        const double prior = 0.5 / static_cast<double>(edges.size()) + (is_preferred ? 0.5 : 0);
+        const auto prior = static_cast<double>(edges[e].prior);
         const double value = edges[e].weight() > 0 ? edges[e].value : node.value;
         const double bound = value + scale * prior / (1 + edges[e].weight());
         if (!(bound > best)) continue;

@@ -74,8 +74,10 @@ class Uct : public Planner {
     void add_edges(NodeId node, const rddl_batch* batch, std::int64_t place);
     bool value_new_nodes(const DecisionPoint& point, RandomStream& stream, BudgetMeter& meter,
                          std::size_t draws);
-    // The policy's own action in each new node.
+    // The priors of new nodes by the policy's logits, or by its action alone.
+    bool find_priors(const DecisionPoint& point, RandomStream& stream, BudgetMeter& meter);
     bool find_preferred(const DecisionPoint& point, RandomStream& stream, BudgetMeter& meter);
+    void set_priors(Node& node, const float* logarithms);
     bool value_by_determinisation(const DecisionPoint& point, RandomStream& stream,
                                   BudgetMeter& meter);
     // The mean rewards of the policy where lookaheads from new nodes end.
@@ -108,6 +110,8 @@ class Uct : public Planner {
     Continuations continuations_;
     std::vector<BasePolicy> policies_;           // that may play on
     std::size_t policy_ = 0;                     // that does
+    solvers::ActionPriors priors_;               // of the user's policy; may be empty
+    std::optional<Futures> judged_;              // new nodes, for it
     std::optional<TypicalSteps> typical_steps_;  // of Initial::Determinised
     std::size_t most_bytes_, most_kept_bytes_;   // of a memory: in a decision, and after it
     EpisodeMemories<Memory> memories_;
@@ -117,7 +121,9 @@ class Uct : public Planner {
     std::int64_t end_ = 0;   // the step that the search looks ahead to
     std::vector<Trial> trials_;
     std::vector<std::uint64_t> streams_;
-    std::vector<std::byte> records_, states_;
+    std::vector<std::byte> records_, states_, judged_states_;
+    std::vector<std::int64_t> judged_steps_;
+    std::vector<float> prior_rows_;
     std::vector<std::uint8_t> legal_;
     std::vector<NodeId> new_nodes_;
     // The requests to continuations, and the node and edge of each.

@@ -60,16 +60,17 @@ Policy random_policy(const rddl_simulator& simulator, std::uint64_t seed) {
 }
 
 Policy noop_policy(const rddl_simulator& simulator) {
-    return {"noop", spaces_of(simulator), [problem = simulator.problem](std::int64_t) -> Actor {
-                return [problem](Decision& decision) {
-                    const auto* const action =
-                        static_cast<const std::byte*>(problem->default_action);
-                    for (std::size_t i = 0; i < decision.running.size(); ++i)
-                        std::copy_n(
-                            action, problem->action_size,
-                            decision.actions + i * static_cast<std::size_t>(problem->action_size));
-                };
-            }};
+    const auto start = [problem = simulator.problem](std::int64_t environments) -> Actor {
+        const auto* const action = static_cast<const std::byte*>(problem->default_action);
+        std::vector<std::byte> rows;
+        for (std::int64_t i = 0; i < environments; ++i)
+            rows.insert(rows.end(), action, action + problem->action_size);
+        return [rows = std::move(rows), size = problem->action_size](Decision& decision) {
+            const auto count = static_cast<std::int64_t>(decision.running.size());
+            std::copy_n(rows.data(), count * size, decision.actions);
+        };
+    };
+    return {"noop", spaces_of(simulator), start};
 }
 
 Policy plan_policy(const rddl_simulator& simulator, std::string name,

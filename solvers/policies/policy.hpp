@@ -35,6 +35,11 @@ struct Decision {
 // them.
 using Actor = std::function<void(Decision&)>;
 
+// How much a policy tends to some actions, in the states of a batch after so many steps of their
+// episodes: a row of logarithms for each environment, up to a constant of the row.
+using ActionPriors =
+    std::function<void(rddl_batch* batch, std::span<const std::int64_t> steps, float* rows)>;
+
 struct Policy {
     std::string name;
     std::uint64_t spaces;  // that it acts in (spaces_of); run_episodes refuses others
@@ -43,6 +48,10 @@ struct Policy {
     std::int64_t plans = 0;  // that it plays, one after the other; 0: it is not recorded
     // It decides for one environment after the other: a batch of them only takes memory.
     bool decides_one_by_one = false;
+    // The priors of these records of actions, in so many environments; empty where the policy knows
+    // nothing but its action. The policy must outlive them.
+    std::function<ActionPriors(std::int64_t environments, std::span<const std::byte> actions)>
+        priors = {};
 };
 
 // Throws a Failure where the policy is of other spaces than those of the simulator.

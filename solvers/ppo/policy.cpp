@@ -7,6 +7,7 @@
 #include "solvers/ppo/state_noise.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 #include <vector>
 
@@ -107,18 +108,115 @@ struct PpoActor {
     std::vector<std::uint8_t> masks;
 };
 
+// The policy's tendencies to some actions, by its logits. Masks leave out what is illegal, which
+// the caller knows.
+struct PpoPriors {
+    PpoPriors(const rddl_simulator& its_simulator, std::shared_ptr<const PpoModel> its_model,
+              std::int64_t environments, std::span<const std::byte> actions)
+        : simulator(its_simulator), model(std::move(its_model)) {
+        const auto count = static_cast<std::size_t>(environments);
+        observations.resize(count * static_cast<std::size_t>(model->observations.column_count()));
+        features.resize(static_cast<std::size_t>(model->features()));
+        inputs.resize(count * static_cast<std::size_t>(model->input_row()));
+        activations.resize(tile * model->policy.activations);
+        logarithms.resize(static_cast<std::size_t>(model->actions.logit_count));
+        const ActionRecords records(simulator);
+        const auto width = static_cast<std::size_t>(model->actions.index_count());
+        std::vector<float> row(static_cast<std::size_t>(model->actions.column_count));
+        for (std::size_t a = 0; a * records.record_size() < actions.size(); ++a) {
+            records.read(actions.data() + a * records.record_size(), row.data());
+            indices.resize(indices.size() + width);
+            read_action(model->actions, row.data(), nullptr, indices.data() + a * width);
+        }
+    }
+
+    void write(rddl_batch* batch, std::span<const std::int64_t> steps, float* rows) {
+        const auto count = static_cast<std::int64_t>(steps.size());
+        const int row = model->input_row(), output_row = model->policy.padded_outputs();
+        require_done(simulator,
+                     simulator.get_observation_values(batch, RDDL_FLOAT, observations.data()));
+        for (std::int64_t e = 0; e < count; ++e) {
+            write_features(model->observations,
+                           observations.data() + e * model->observations.column_count(),
+                           steps[static_cast<std::size_t>(e)], true, features.data());
+            model->normaliser.write(features.data(), inputs.data() + e * row);
+        }
+        for (std::int64_t e = 0; e < count; e += tile) {
+            const int some = static_cast<int>(std::min<std::int64_t>(tile, count - e));
+            network_functions().forward(model->policy, model->parameters.data(), some,
+                                        inputs.data() + e * row, row, activations.data());
+            const float* const outputs = activations.data() + model->policy.layers.back().values *
+                                                                  static_cast<std::size_t>(some);
+            for (int i = 0; i < some; ++i)
+                rows = write_row(outputs + i * output_row + model->actions.real_count(), rows);
+        }
+    }
+
+    // Writes the row of one environment; returns the place of the next one.
+    float* write_row(const float* logits, float* row) {
+        const ActionSpace& space = model->actions;
+        if (space.max_sub_actions > 0) find_logarithms(0, space.logit_count, logits);
+        for (const CategoryHead& head : space.categories)
+            find_logarithms(head.first_logit, head.count, logits);
+        const auto width = static_cast<std::size_t>(space.index_count());
+        for (std::size_t a = 0; a * width < indices.size(); ++a) {
+            const std::int32_t* const index = indices.data() + a * width;
+            float sum = 0;
+            // Sub-actions in any order have the same sum. The choice to stop, 0, is the last one.
+            for (int p = 0; p < space.max_sub_actions; ++p) {
+                sum += logarithms[static_cast<std::size_t>(index[p])];
+                if (index[p] == 0) break;
+            }
+            for (std::size_t h = 0; h < space.categories.size(); ++h)
+                sum += logarithms[static_cast<std::size_t>(space.categories[h].first_logit +
+                                                           index[h])];
+            *row++ = sum;
+        }
+        return row;
+    }
+
+    // Logarithms of the probabilities of a category.
+    void find_logarithms(int first, int count, const float* logits) {
+        const float most = *std::max_element(logits + first, logits + first + count);
+        float sum = 0;
+        for (int l = first; l < first + count; ++l) sum += std::exp(logits[l] - most);
+        for (int l = first; l < first + count; ++l)
+            logarithms[static_cast<std::size_t>(l)] = logits[l] - most - std::log(sum);
+    }
+
+    const rddl_simulator& simulator;
+    std::shared_ptr<const PpoModel> model;
+    std::vector<std::int32_t> indices;  // rows of index_count
+    std::vector<float> observations, features, inputs, activations, logarithms;
+};
+
+// Only a policy that sees all of a state in its features knows them from a state alone.
+bool has_priors(const rddl_simulator& simulator, const PpoModel& model) {
+    return model.actions.real_count() == 0 && model.recurrent == 0 &&
+           !simulator.problem->partially_observed;
+}
+
 }  // namespace
 
 Policy ppo_policy(const rddl_simulator& simulator, std::shared_ptr<const PpoModel> model,
                   bool random, std::uint64_t seed, std::string name) {
-    return {std::move(name), spaces_of(simulator),
-            [&simulator, model, random, seed](std::int64_t environments) -> Actor {
-                const auto actor =
-                    std::make_shared<PpoActor>(simulator, model, random, seed, environments);
-                return [actor](Decision& decision) {
-                    actor->act(decision);
-                };
-            }};
+    const auto start = [&simulator, model, random, seed](std::int64_t environments) -> Actor {
+        const auto actor = std::make_shared<PpoActor>(simulator, model, random, seed, environments);
+        return [actor](Decision& decision) {
+            actor->act(decision);
+        };
+    };
+    Policy policy{std::move(name), spaces_of(simulator), start};
+    if (has_priors(simulator, *model))
+        policy.priors = [&simulator, model](std::int64_t environments,
+                                            std::span<const std::byte> actions) -> ActionPriors {
+            const auto priors =
+                std::make_shared<PpoPriors>(simulator, model, environments, actions);
+            return [priors](rddl_batch* batch, std::span<const std::int64_t> steps, float* rows) {
+                priors->write(batch, steps, rows);
+            };
+        };
+    return policy;
 }
 
 }  // namespace rddlc::solvers

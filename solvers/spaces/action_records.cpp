@@ -170,6 +170,19 @@ void ActionRecords::write(const float* values, std::byte* record) const {
     }
 }
 
+double ActionRecords::default_value(int column) const {
+    const Entry& at = entry(column);
+    if (at.scalar == RDDL_BOOL) return blank_[at.offset] != std::byte{0} ? 1 : 0;
+    if (at.scalar == RDDL_INT) {
+        std::int64_t value;
+        std::memcpy(&value, blank_.data() + at.offset, sizeof value);
+        return static_cast<double>(value);
+    }
+    double value;
+    std::memcpy(&value, blank_.data() + at.offset, sizeof value);
+    return value;
+}
+
 void ActionRecords::read(const std::byte* record, float* values) const {
     for (std::size_t c = 0; c < entries_.size(); ++c) {
         const Entry& entry = entries_[c];

@@ -119,11 +119,16 @@ class ActionRecords {
     void read(const std::byte* record, float* values) const;
     std::size_t record_size() const { return record_size_; }
 
-  private:
+    // Where the value of a column stands in a record, and its default.
     struct Entry {
         std::size_t offset;
         rddl_scalar scalar;
     };
+    const Entry& entry(int column) const { return entries_[static_cast<std::size_t>(column)]; }
+    double default_value(int column) const;
+    const std::vector<std::byte>& default_record() const { return blank_; }
+
+  private:
     std::vector<Entry> entries_;
     std::vector<std::byte> blank_;  // the default action
     std::vector<float> defaults_;   // as a row

@@ -52,6 +52,18 @@ TEST(Cem, TakesThePolicyThatItIsGiven) {
     EXPECT_EQ(plan.summary.illegal_actions, 0);
 }
 
+// A population of one plan, which is `drawn`.
+Population draw_one(const solvers::ActionSpace& space, Distribution& distribution,
+                    double correlation, Plan& drawn) {
+    Population population(1, space.real_count(), space.index_count());
+    population.set_steps(distribution.steps());
+    PlanNoise noise(1, space.real_count(), space.index_count(), {&correlation, 1});
+    RandomStream stream(1, 2, 3);
+    distribution.draw(stream, noise, population);
+    population.get(0, drawn);
+    return population;
+}
+
 TEST(Plans, ReadWhatTheyWrite) {
     for (const rddl_simulator* simulator :
          {&target(), &ladder(), &network(), &reservoir(), &car()}) {
@@ -59,13 +71,11 @@ TEST(Plans, ReadWhatTheyWrite) {
         const solvers::ActionSpace space = solvers::action_space(*simulator);
         Distribution distribution(space, {});
         distribution.restart(20);
-        distribution.prepare();
         Plan drawn, read;
         drawn.numbers.resize(static_cast<std::size_t>(20 * space.real_count()));
         drawn.indices.resize(static_cast<std::size_t>(20 * space.index_count()));
         read = drawn;
-        RandomStream stream(1, 2, 3);
-        distribution.draw(stream, 0.5, drawn);
+        draw_one(space, distribution, 0.5, drawn);
         std::vector<float> row(static_cast<std::size_t>(space.column_count)), again = row;
         int different = 0;
         for (int t = 0; t < 20; ++t) {
@@ -92,16 +102,14 @@ TEST(Plans, AreFitted) {
         const solvers::ActionSpace space = solvers::action_space(*simulator);
         Distribution distribution(space, {});
         distribution.restart(5);
-        distribution.prepare();
         Plan drawn;
         drawn.numbers.resize(static_cast<std::size_t>(5 * space.real_count()));
         drawn.indices.resize(static_cast<std::size_t>(5 * space.index_count()));
         Plan middle = drawn;
-        RandomStream stream(1, 2, 3);
-        distribution.draw(stream, 0, drawn);
-        const Plan* const all[] = {&drawn, &drawn};
+        const Population population = draw_one(space, distribution, 0, drawn);
+        const std::size_t all[] = {0, 0};
         const double weights[] = {0.25, 0.75};
-        for (int i = 0; i < 20; ++i) distribution.fit(all, weights, 0.2, false);
+        for (int i = 0; i < 20; ++i) distribution.fit(population, all, weights, 0.2, false);
         distribution.middle(middle);
         for (std::size_t k = 0; k < drawn.numbers.size(); ++k)
             EXPECT_NEAR(middle.numbers[k], drawn.numbers[k], 1e-5);

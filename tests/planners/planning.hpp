@@ -50,6 +50,18 @@ inline PolicySettings settings_of(const rddl_simulator& simulator) {
     settings.named = [&simulator](const std::string& name) {
         if (name == "noop") return solvers::noop_policy(simulator);
         if (name == "random") return solvers::random_policy(simulator, 0);
+        if (name == "fond of the last action") {
+            solvers::Policy policy = solvers::noop_policy(simulator);
+            policy.priors = [&simulator](std::int64_t, std::span<const std::byte> actions) {
+                const auto count =
+                    actions.size() / static_cast<std::size_t>(simulator.problem->action_size);
+                return [count](rddl_batch*, std::span<const std::int64_t> steps, float* rows) {
+                    for (std::size_t k = 0; k < steps.size() * count; ++k)
+                        rows[k] = k % count == count - 1 ? 0.0f : -3.0f;
+                };
+            };
+            return policy;
+        }
         throw Failure("there is no policy '" + name + "'");
     };
     return settings;

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstring>
 #include <tuple>
 #include <vector>
@@ -297,6 +298,21 @@ TEST(Uct, RefusesProblemsOfRealActions) {
                   std::string::npos);
         EXPECT_EQ(failure.hint, "take plan:cem");
     }
+}
+
+TEST(Uct, TriesActionsByThePriorsOfAPolicy) {
+    const Played by_action = run(network(), "plan:uct,iterations=200,policy=noop");
+    const Played by_priors =
+        run(network(), "plan:uct,iterations=200,policy=fond of the last action");
+    const auto trials_of_last = [](const Played& played) {
+        return played.thought(0, 0).candidates.back().trials;
+    };
+    EXPECT_GT(trials_of_last(by_priors), 2 * trials_of_last(by_action));
+    for (const auto& candidate : by_priors.thought(0, 0).candidates)
+        EXPECT_TRUE(std::isfinite(candidate.value));
+    EXPECT_EQ(
+        by_priors.returns(),
+        run(network(), "plan:uct,iterations=200,policy=fond of the last action", 1, 2).returns());
 }
 
 }  // namespace

@@ -293,6 +293,51 @@ TEST(StateNoise, IsPartOfCheckpointsAndPolicies) {
     }
 }
 
+// Each action of the network problem is one choice, so that all priors together are 1; the
+// likeliest action is the policy's.
+TEST(Ppo, GivesPriorsOfActions) {
+    const rddl_simulator& network = *rddl_simulator_network_network_1();
+    PpoTrainer trainer(network, small_training());
+    for (int i = 0; i < 3; ++i) trainer.update();
+    const auto model = read_ppo_policy(network, ppo_policy_text(network, trainer.model()));
+    const Policy policy = ppo_policy(network, model, false, 1, "ppo");
+    ASSERT_TRUE(policy.priors);
+    const auto choices = static_cast<std::size_t>(network.action_choice_count(&network));
+    const auto size = static_cast<std::size_t>(network.problem->action_size);
+    std::vector<std::byte> actions(choices * size), chosen(3 * size);
+    for (std::size_t c = 0; c < choices; ++c)
+        network.action_choice(&network, static_cast<std::int64_t>(c), actions.data() + c * size,
+                              nullptr);
+    rddl_batch_options options{};
+    options.environment_count = 3;
+    const BatchHandle batch = create_batch(network, options);
+    rddl_transition nothing{};
+    network.step(batch.get(), std::vector<std::byte>(3 * size).data(), &nothing);
+    const std::vector<std::int64_t> steps(3, 1), episodes(3, 0);
+    std::vector<float> rows(3 * choices);
+    policy.priors(3, actions)(batch.get(), steps, rows.data());
+    std::vector<std::int32_t> violated(3);
+    const std::vector<std::uint8_t> running(3, 1);
+    Decision decision{batch.get(), running, episodes, steps, chosen.data(), violated};
+    policy.start(3)(decision);
+    for (std::size_t e = 0; e < 3; ++e) {
+        const float* const row = rows.data() + e * choices;
+        double sum = 0;
+        for (std::size_t c = 0; c < choices; ++c) sum += std::exp(static_cast<double>(row[c]));
+        EXPECT_NEAR(sum, 1, 1e-5);
+        const auto best = static_cast<std::size_t>(std::max_element(row, row + choices) - row);
+        EXPECT_TRUE(std::equal(actions.data() + best * size, actions.data() + (best + 1) * size,
+                               chosen.data() + e * size));
+    }
+    PpoOptions recurrent = small_training();
+    recurrent.recurrent = 4;
+    PpoTrainer remembers(network, recurrent);
+    EXPECT_FALSE(ppo_policy(network,
+                            read_ppo_policy(network, ppo_policy_text(network, remembers.model())),
+                            false, 1, "ppo")
+                     .priors);
+}
+
 TEST(Ppo, SquashedPoliciesAreReadAsTheyWereWritten) {
     PpoOptions options = small_training();
     options.squashes = true;

@@ -152,7 +152,12 @@ class Batch {
         set_lane(at(i).number, lane_of(i), std::int64_t{-1});
         if (streams_.empty()) return;
         streams_[index(i)] = stream;
-        set_keys(blocks_, i / width, only(i));
+        if (i > 0 && streams_[index(i - 1)] == stream && episode_number(i - 1) == -1) {
+            set_lane(at(i).key_low, lane_of(i), get_lane(at(i - 1).key_low, lane_of(i - 1)));
+            set_lane(at(i).key_high, lane_of(i), get_lane(at(i - 1).key_high, lane_of(i - 1)));
+        } else {
+            set_keys(blocks_, i / width, only(i));
+        }
     }
     // Sets the seed as in a new batch.
     void set_seed(std::uint64_t seed) {
@@ -187,6 +192,21 @@ class Batch {
         last_steps_[index(i)] = from.last_step;
         copy_record(last_states_[i], from.last_state[0], state_size());
         copy_record(last_actions_[i], from.last_action[0], action_size());
+    }
+
+    // The same for environments [begin, begin + count). Blocks that are all copies are copied
+    // whole.
+    void set_environments(std::int64_t begin, std::int64_t count, const Environment& from) {
+        const std::int64_t end = begin + count;
+        for (std::int64_t i = begin; i < end;) {
+            const bool repeats = width > 1 && i % width == 0 && i - begin >= width &&
+                                 i + width <= end && !keeps_steps();
+            if (repeats)
+                repeat_block(i / width);
+            else
+                set_environment(i, from);
+            i += repeats ? width : 1;
+        }
     }
 
     // -------------------------------------------------------------- all environments
@@ -543,6 +563,19 @@ class Batch {
         for (std::int64_t b = range.begin; out.observations != nullptr && b < end; ++b)
             write_observations(out.observations, b);
         return end;
+    }
+
+    // A whole block becomes as the one before it.
+    void repeat_block(std::int64_t b) {
+        copy_record(state(b), state(b - 1), engine_->state_size());
+        if (options_.partially_observed)
+            copy_record(observations_[b], observations_[b - 1], engine_->observation_size());
+        const std::int64_t which = episodes_[index(b)].state;
+        episodes_[index(b)] = episodes_[index(b - 1)];
+        episodes_[index(b)].state = which;
+        if (streams_.empty()) return;
+        const auto first = streams_.begin() + b * width;
+        std::copy_n(first - width, width, first);
     }
 
     // A step of a block where some episodes are over: the next ones start instead.

@@ -453,12 +453,15 @@ class Functions {
         try {
             const Parts& maker = *handle(to).maker;
             Environment environment(*maker.problem, memory_size(maker.engine));
-            for (std::int64_t k = 0; k < count; ++k) {
+            for (std::int64_t k = 0; k < count;) {
+                // Planners ask for many copies of one environment.
+                const std::int64_t source = source_of(sources, k), first = k;
+                while (k < count && source_of(sources, k) == source) ++k;
                 handle(from).use([&](const auto& environments) {
-                    environments.get_environment(source_of(sources, k), environment);
+                    environments.get_environment(source, environment);
                 });
                 handle(to).use([&](auto& environments) {
-                    environments.set_environment(begin + k, environment);
+                    environments.set_environments(begin + first, k - first, environment);
                 });
             }
             return RDDL_OK;

@@ -13,6 +13,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <type_traits>
 
 namespace rddl {
@@ -179,8 +180,11 @@ RDDL_ALWAYS_INLINE void write_ends(const Blocks<L>& blocks, std::int64_t b, cons
     const int lanes = blocks.lanes_of(b);
     if (out.terminated != nullptr) write_flags(ends.terminated, out.terminated + first, lanes);
     if (out.truncated != nullptr) write_flags(ends.truncated(), out.truncated + first, lanes);
-    for (int lane = 0; out.causes != nullptr && lane < lanes; ++lane)
-        out.causes[first + lane] = ends.causes(lane);
+    if (out.causes == nullptr) return;
+    if (L::width > 1 && !any(ends.any()))
+        std::memset(out.causes + first, RDDL_RUNNING, static_cast<std::size_t>(lanes));
+    else
+        for (int lane = 0; lane < lanes; ++lane) out.causes[first + lane] = ends.causes(lane);
 }
 
 // A step of the running episodes of the blocks from range.begin on, whose rewards and ends are

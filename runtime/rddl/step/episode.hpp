@@ -142,6 +142,8 @@ struct alignas(64) Episodes {
 struct Stream {
     std::uint64_t seed;
     std::uint64_t identity;
+
+    friend bool operator==(const Stream&, const Stream&) = default;
 };
 
 // The environments of a batch, in blocks.

@@ -87,6 +87,43 @@ TEST(CopyEnvironments, WithinABatchLeavesTheOthersAlone) {
     }
 }
 
+// Many copies of one environment, of which whole blocks are copied at once, are as single copies.
+TEST(CopyEnvironments, OfOneAreAsSingleCopies) {
+    for (const rddl_autoreset reset : {RDDL_AUTORESET_DISABLED, RDDL_AUTORESET_SAME_STEP}) {
+        TinyBatch source(batch_options(30, 5)), many(batch_options(150, 100, 9, 1, reset)),
+            single(batch_options(150, 100, 9, 1, reset));
+        for (int time = 0; time < 7; ++time) source.step();
+        for (int time = 0; time < 3; ++time) {
+            many.step();
+            single.step();
+        }
+        const std::vector<std::int64_t> sources(140, 17);
+        ASSERT_EQ(functions.copy_environments(many.get(), 5, 140, source.get(), sources.data()),
+                  RDDL_OK);
+        for (std::int64_t i = 5; i < 145; ++i)
+            ASSERT_EQ(functions.copy_environments(single.get(), i, 1, source.get(), sources.data()),
+                      RDDL_OK);
+        // Neighbours with the same seed, and with others.
+        for (std::int64_t i = 0; i < 150; ++i) {
+            const auto seed = static_cast<std::uint64_t>(i / 3);
+            ASSERT_EQ(functions.set_seeds(many.get(), i, 1, &seed), RDDL_OK);
+        }
+        for (std::int64_t i = 149; i >= 0; --i) {
+            const auto seed = static_cast<std::uint64_t>(i / 3);
+            ASSERT_EQ(functions.set_seeds(single.get(), i, 1, &seed), RDDL_OK);
+        }
+        for (int time = 0; time < 60; ++time) {
+            many.step();
+            single.step();
+            for (std::size_t i = 0; i < 150; ++i) {
+                ASSERT_EQ(many.rewards[i], single.rewards[i]) << time << " " << i;
+                ASSERT_EQ(many.causes[i], single.causes[i]);
+                ASSERT_EQ(many.observations[i].wear, single.observations[i].wear);
+            }
+        }
+    }
+}
+
 TEST(CopyEnvironments, RefusesOtherSimulatorsAndPlaces) {
     TinyBatch batch(batch_options(4));
     const std::int64_t beyond = 4;

@@ -1,0 +1,52 @@
+// Loops over a value of many plans side by side, compiled for each instruction set. All compute the
+// same bits.
+#pragma once
+
+#include "solvers/spaces/actions.hpp"
+
+#include <cstddef>
+#include <cstdint>
+
+namespace rddlc::planners {
+
+// Noise of a step: see PlanNoise. Plan p keeps old[p] of its number and takes fresh[p] of a new
+// one; it keeps its rank with the probability keep[p] / 256.
+struct NumberNoise {
+    std::uint32_t key;
+    const float *old, *fresh;
+};
+struct RankNoise {
+    std::uint32_t key;
+    const std::uint32_t* keep;
+};
+inline constexpr std::int32_t rank_count = 1 << 24;
+
+// A real of an action: its scale, and its default as a float and as it is.
+struct RealScale {
+    solvers::RealHead::Range range;  // not Squashed
+    bool rounds;
+    double lower, upper, scale, centre;
+    float short_default;
+    double exact_default;
+};
+
+struct PlanLoops {
+    void (*next_numbers)(const NumberNoise& noise, std::size_t plans, float* numbers);
+    void (*next_ranks)(const RankNoise& noise, std::size_t plans, std::int32_t* ranks);
+    // number = mean + deviation * noise; where it is bounded, between -1 and 1.
+    void (*scale_numbers)(float mean, float deviation, bool is_bounded, const float* noise,
+                          std::size_t plans, float* numbers);
+    // reached[p] becomes the number of thresholds that ranks[p] reaches. They are in ascending
+    // order and 2^n - 1.
+    void (*count_reached)(const std::int32_t* thresholds, std::size_t count,
+                          const std::int32_t* ranks, std::size_t plans, std::int32_t* reached);
+    // Values as write_action and ActionRecords have them: of a float's precision, and what is the
+    // default there is the default itself.
+    void (*real_values)(const RealScale& real, const float* numbers, std::size_t plans,
+                        double* values);
+};
+
+// The loops of this processor.
+const PlanLoops& plan_loops();
+
+}  // namespace rddlc::planners

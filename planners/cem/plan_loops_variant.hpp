@@ -1,0 +1,133 @@
+// PlanLoops for one instruction set. Included once for each, within a namespace of its own;
+// includes nothing that would be compiled for it.
+
+// 32 bits of a counter and a key, each of which depends on all of theirs ("lowbias32" of Chris
+// Wellons' hash prospector, 2018).
+inline std::uint32_t noise_bits(std::uint32_t key, std::size_t counter) {
+    std::uint32_t bits = key + static_cast<std::uint32_t>(counter) * 0x9E3779B9u;
+    bits = (bits ^ (bits >> 16)) * 0x7FEB352Du;
+    bits = (bits ^ (bits >> 15)) * 0x846CA68Bu;
+    return bits ^ (bits >> 16);
+}
+
+// The sum of three numbers of 0 .. 1023 has the mean 1534.5 and the deviation 512.
+inline float bell_of(std::uint32_t bits) {
+    const std::uint32_t sum = (bits & 1023) + ((bits >> 10) & 1023) + ((bits >> 20) & 1023);
+    return (static_cast<float>(static_cast<std::int32_t>(sum)) - 1534.5f) * (1.0f / 512);
+}
+
+inline void next_numbers(const NumberNoise& noise, std::size_t plans, float* numbers) {
+    const float *const old = noise.old, *const fresh = noise.fresh;
+    const std::uint32_t key = noise.key;
+    for (std::size_t p = 0; p < plans; ++p)
+        numbers[p] = old[p] * numbers[p] + fresh[p] * bell_of(noise_bits(key, p));
+}
+
+inline void next_ranks(const RankNoise& noise, std::size_t plans, std::int32_t* ranks) {
+    const std::uint32_t* const keep = noise.keep;
+    const std::uint32_t key = noise.key;
+    for (std::size_t p = 0; p < plans; ++p) {
+        const std::uint32_t bits = noise_bits(key, p);
+        ranks[p] = (bits & 255) < keep[p] ? ranks[p] : static_cast<std::int32_t>(bits >> 8);
+    }
+}
+
+// As std::clamp, but of values, which loops of it take in registers.
+template <class Real>
+inline Real clamped(Real x, Real least, Real most) {
+    const Real below = x < most ? x : most;
+    return below > least ? below : least;
+}
+
+inline void scale_numbers(float mean, float deviation, bool is_bounded, const float* noise,
+                          std::size_t plans, float* numbers) {
+    if (is_bounded)
+        for (std::size_t p = 0; p < plans; ++p)
+            numbers[p] = clamped(mean + deviation * noise[p], -1.0f, 1.0f);
+    else
+        for (std::size_t p = 0; p < plans; ++p) numbers[p] = mean + deviation * noise[p];
+}
+
+inline void count_reached(const std::int32_t* thresholds, std::size_t count,
+                          const std::int32_t* ranks, std::size_t plans, std::int32_t* reached) {
+    // Up to so many, all are compared; of more, they are searched by halves.
+    constexpr std::size_t few = 16;
+    for (std::size_t p = 0; p < plans; ++p) reached[p] = 0;
+    if (count <= few) {
+        for (std::size_t k = 0; k < count; ++k) {
+            const std::int32_t threshold = thresholds[k];
+            for (std::size_t p = 0; p < plans; ++p) reached[p] += ranks[p] >= threshold ? 1 : 0;
+        }
+        return;
+    }
+    for (auto half = static_cast<std::int32_t>((count + 1) / 2); half > 0; half /= 2)
+        for (std::size_t p = 0; p < plans; ++p)
+            reached[p] += ranks[p] >= thresholds[reached[p] + half - 1] ? half : 0;
+}
+
+// 2^x for x <= 0, within 2e-7 of its value.
+inline float power_of_two(float x) {
+    x = x > -126 ? x : -126;
+    const auto whole = static_cast<std::int32_t>(x);
+    const float rest = x - static_cast<float>(whole);  // in (-1, 0]
+    float power = 0.00010944255f;
+    power = power * rest + 0.0012765167f;
+    power = power * rest + 0.0095818322f;
+    power = power * rest + 0.05549252f;
+    power = power * rest + 0.24022487f;
+    power = power * rest + 0.69314712f;
+    power = power * rest + 1.0f;
+    return power * std::bit_cast<float>((whole + 127) << 23);
+}
+
+// log(1 + y) for y in [0, 1], within 5e-7 of its value.
+inline float log_of_one_and(float y) {
+    float quotient = -0.00877026f;
+    quotient = quotient * y + 0.045214139f;
+    quotient = quotient * y - 0.10974114f;
+    quotient = quotient * y + 0.17927648f;
+    quotient = quotient * y - 0.24577269f;
+    quotient = quotient * y + 0.33292857f;
+    quotient = quotient * y - 0.49998793f;
+    quotient = quotient * y + 1.0f;
+    return quotient * y;
+}
+
+// As real_value has it, without calls, so that loops of it are vectorised.
+inline double quick_softplus(float x) {
+    constexpr float per_octave = 1.44269504f;
+    const float size = x > 0 ? x : -x;
+    return static_cast<double>((x > 0 ? x : 0) + log_of_one_and(power_of_two(-size * per_octave)));
+}
+
+inline void real_values(const RealScale& real, const float* numbers, std::size_t plans,
+                        double* values) {
+    const double lower = real.lower, upper = real.upper, scale = real.scale, centre = real.centre;
+    const float short_default = real.short_default;
+    const double exact_default = real.exact_default;
+    const auto finished = [=](double value) {
+        const auto rounded = static_cast<float>(clamped(clamped(value, -1e9, 1e9), lower, upper));
+        return rounded == short_default ? exact_default : static_cast<double>(rounded);
+    };
+    const auto make_values = [=](auto value_of) {
+        if (real.rounds)
+            for (std::size_t p = 0; p < plans; ++p)
+                values[p] = finished(__builtin_nearbyint(clamped(value_of(numbers[p]), -1e9, 1e9)));
+        else
+            for (std::size_t p = 0; p < plans; ++p) values[p] = finished(value_of(numbers[p]));
+    };
+    using Range = solvers::RealHead::Range;
+    if (real.range == Range::Bounded)
+        make_values([=](float u) {
+            return lower + (clamped(static_cast<double>(u), -1.0, 1.0) + 1) * 0.5 * (upper - lower);
+        });
+    else if (real.range == Range::AboveLower)
+        make_values([=](float u) { return lower + scale * quick_softplus(u); });
+    else if (real.range == Range::BelowUpper)
+        make_values([=](float u) { return upper - scale * quick_softplus(u); });
+    else
+        make_values([=](float u) { return centre + scale * static_cast<double>(u); });
+}
+
+inline constexpr PlanLoops loops{next_numbers, next_ranks, scale_numbers, count_reached,
+                                 real_values};

@@ -1,0 +1,37 @@
+#include "planners/cem/plan_noise.hpp"
+
+#include <cmath>
+
+namespace rddlc::planners {
+
+PlanNoise::PlanNoise(std::size_t plans, int reals, int ranks, std::span<const double> correlations)
+    : loops_(plan_loops()),
+      plans_(plans),
+      nothing_(plans, 0.0f),
+      all_(plans, 1.0f),
+      no_chance_(plans, 0),
+      numbers_(static_cast<std::size_t>(reals) * plans),
+      ranks_(static_cast<std::size_t>(ranks) * plans) {
+    for (std::size_t p = 0; p < plans; ++p) {
+        const double correlation = correlations[p % correlations.size()];
+        old_.push_back(static_cast<float>(correlation));
+        fresh_.push_back(static_cast<float>(std::sqrt(1 - correlation * correlation)));
+        keep_.push_back(static_cast<std::uint32_t>(std::lround(256 * correlation)));
+    }
+}
+
+void PlanNoise::next_step(RandomStream& stream) {
+    const auto key = [&] {
+        return static_cast<std::uint32_t>(stream.bits() >> 32);
+    };
+    const float* const old = is_first_ ? nothing_.data() : old_.data();
+    const float* const fresh = is_first_ ? all_.data() : fresh_.data();
+    for (float* row = numbers_.data(); row < numbers_.data() + numbers_.size(); row += plans_)
+        loops_.next_numbers({key(), old, fresh}, plans_, row);
+    const std::uint32_t* const keep = is_first_ ? no_chance_.data() : keep_.data();
+    for (std::int32_t* row = ranks_.data(); row < ranks_.data() + ranks_.size(); row += plans_)
+        loops_.next_ranks({key(), keep}, plans_, row);
+    is_first_ = false;
+}
+
+}  // namespace rddlc::planners

@@ -1,0 +1,43 @@
+// Noise of many plans side by side, correlated from step to step: a plan that changes its mind in
+// each step gets nowhere.
+#pragma once
+
+#include "planners/cem/plan_loops.hpp"
+#include "planners/simulation/random_stream.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace rddlc::planners {
+
+class PlanNoise {
+  public:
+    // The noise of plan p has the correlation correlations[p % correlations.size()].
+    PlanNoise(std::size_t plans, int reals, int ranks, std::span<const double> correlations);
+
+    // The plans begin again: the next step depends on nothing before it.
+    void restart() { is_first_ = true; }
+    void next_step(RandomStream& stream);
+
+    // Each plan has a number with mean 0 and deviation 1, between -3 and 3: an autoregressive
+    // process of sums of three uniform numbers. A search needs no tails.
+    const float* numbers(std::size_t real) const { return numbers_.data() + real * plans_; }
+    // Each plan has a uniform number in 0 .. rank_count - 1. It is that of the step before with the
+    // probability of the correlation, else a new one: so ranks are uniform in each step.
+    const std::int32_t* ranks(std::size_t rank) const { return ranks_.data() + rank * plans_; }
+
+  private:
+    const PlanLoops& loops_;
+    std::size_t plans_;
+    bool is_first_ = true;
+    std::vector<float> old_, fresh_;    // weights, by plan
+    std::vector<std::uint32_t> keep_;   // the probability of an old rank, in 256ths
+    std::vector<float> nothing_, all_;  // the same of first steps
+    std::vector<std::uint32_t> no_chance_;
+    std::vector<float> numbers_;       // [real][plan]
+    std::vector<std::int32_t> ranks_;  // [rank][plan]
+};
+
+}  // namespace rddlc::planners

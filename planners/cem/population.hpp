@@ -1,0 +1,69 @@
+// Plans of actions as a search sees them: the learner's numbers for reals, and categories or
+// sub-actions (solvers/spaces).
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace rddlc::planners {
+
+// One plan by itself.
+struct Plan {
+    std::vector<float> numbers;         // rows of real_count
+    std::vector<std::int32_t> indices;  // rows of index_count
+};
+
+// Many plans side by side: all that is done to a value of one plan is done to that of all others in
+// the same loop.
+class Population {
+  public:
+    Population(std::size_t plans, int reals, int indices)
+        : plans_(plans),
+          reals_(static_cast<std::size_t>(reals)),
+          indices_(static_cast<std::size_t>(indices)) {}
+
+    // The plans get so many steps. Their values are any until they are written.
+    void set_steps(std::int64_t steps) {
+        steps_ = static_cast<std::size_t>(steps);
+        number_values_.resize(steps_ * reals_ * plans_);
+        index_values_.resize(steps_ * indices_ * plans_);
+    }
+    std::size_t plans() const { return plans_; }
+    std::size_t steps() const { return steps_; }
+
+    // A value of a step, of all plans.
+    float* numbers(std::size_t step, std::size_t real) {
+        return number_values_.data() + (step * reals_ + real) * plans_;
+    }
+    const float* numbers(std::size_t step, std::size_t real) const {
+        return number_values_.data() + (step * reals_ + real) * plans_;
+    }
+    std::int32_t* indices(std::size_t step, std::size_t index) {
+        return index_values_.data() + (step * indices_ + index) * plans_;
+    }
+    const std::int32_t* indices(std::size_t step, std::size_t index) const {
+        return index_values_.data() + (step * indices_ + index) * plans_;
+    }
+
+    // Copies the first steps of a plan that has at least as many.
+    void put(std::size_t plan, const Plan& from) {
+        for (std::size_t k = 0; k < steps_ * reals_; ++k)
+            number_values_[k * plans_ + plan] = from.numbers[k];
+        for (std::size_t k = 0; k < steps_ * indices_; ++k)
+            index_values_[k * plans_ + plan] = from.indices[k];
+    }
+    void get(std::size_t plan, Plan& to) const {
+        for (std::size_t k = 0; k < steps_ * reals_; ++k)
+            to.numbers[k] = number_values_[k * plans_ + plan];
+        for (std::size_t k = 0; k < steps_ * indices_; ++k)
+            to.indices[k] = index_values_[k * plans_ + plan];
+    }
+
+  private:
+    std::size_t plans_, reals_, indices_, steps_ = 0;
+    std::vector<float> number_values_;
+    std::vector<std::int32_t> index_values_;
+};
+
+}  // namespace rddlc::planners

@@ -1,0 +1,184 @@
+#include "planners/cem/plan_actions.hpp"
+#include "planners/cem/plan_distribution.hpp"
+#include "planners/cem/plan_noise.hpp"
+#include "planning.hpp"
+#include "solvers/spaces/actions.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <cstring>
+
+namespace rddlc::planners {
+namespace {
+
+// The loops of the instruction set of that name, or of the greatest one below it.
+const PlanLoops& loops_of(const char* instruction_set) {
+    setenv("RDDL_INSTRUCTION_SET", instruction_set, 1);
+    const PlanLoops& loops = plan_loops();
+    unsetenv("RDDL_INSTRUCTION_SET");
+    return loops;
+}
+
+// A count that is no multiple of any vector's.
+constexpr std::size_t plans = 77;
+
+RealScale scale_of_range(solvers::RealHead::Range range, bool rounds) {
+    return {range, rounds, -2.5, 7.25, 3, 0.5, 0.1f, 0.1};
+}
+
+TEST(PlanLoops, ComputeTheSameBitsOnAllInstructionSets) {
+    const auto run = [](const char* instruction_set) {
+        const PlanLoops& loops = loops_of(instruction_set);
+        std::vector<float> old(plans, 0.8f), fresh(plans, 0.6f), noise(plans, 0.25f),
+            numbers(plans);
+        std::vector<std::uint32_t> keep(plans, 100);
+        std::vector<std::int32_t> ranks(plans, 5), reached(plans), thresholds;
+        std::vector<double> values(plans);
+        std::vector<std::byte> all;
+        const auto note = [&all](const auto& vector) {
+            const auto* const bytes = reinterpret_cast<const std::byte*>(vector.data());
+            all.insert(all.end(), bytes, bytes + vector.size() * sizeof vector[0]);
+        };
+        for (std::uint32_t key = 1; key < 40; ++key) {
+            loops.next_numbers({key, old.data(), fresh.data()}, plans, noise.data());
+            loops.next_ranks({key, keep.data()}, plans, ranks.data());
+            note(noise);
+            note(ranks);
+        }
+        for (const int count : {1, 3, 15, 31, 127}) {
+            thresholds.clear();
+            for (int k = 0; k < count; ++k) thresholds.push_back((k + 1) * (rank_count / 130));
+            loops.count_reached(thresholds.data(), thresholds.size(), ranks.data(), plans,
+                                reached.data());
+            note(reached);
+            for (std::size_t p = 0; p < plans; ++p)
+                EXPECT_EQ(reached[p], std::ranges::count_if(thresholds, [&](std::int32_t t) {
+                              return ranks[p] >= t;
+                          }));
+        }
+        using Range = solvers::RealHead::Range;
+        for (const Range range :
+             {Range::Bounded, Range::AboveLower, Range::BelowUpper, Range::Free}) {
+            loops.scale_numbers(0.5f, 2, range == Range::Bounded, noise.data(), plans,
+                                numbers.data());
+            note(numbers);
+            for (const bool rounds : {false, true}) {
+                loops.real_values(scale_of_range(range, rounds), numbers.data(), plans,
+                                  values.data());
+                note(values);
+            }
+        }
+        return all;
+    };
+    const auto portable = run("sse2");
+    EXPECT_EQ(portable, run("avx2"));
+    EXPECT_EQ(portable, run("avx512"));
+}
+
+TEST(PlanLoops, GiveRealsTheirValues) {
+    using Range = solvers::RealHead::Range;
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    for (const Range range : {Range::Bounded, Range::AboveLower, Range::BelowUpper, Range::Free}) {
+        solvers::RealHead head;
+        head.range = range;
+        head.lower = range == Range::BelowUpper || range == Range::Free ? -infinity : -2.5;
+        head.upper = range == Range::AboveLower || range == Range::Free ? infinity : 7.25;
+        head.scale = 3;
+        head.centre = 0.5;
+        std::vector<float> numbers;
+        for (float u = -200; u < 200; u += 0.37f) numbers.push_back(u);
+        std::vector<double> values(numbers.size());
+        plan_loops().real_values(
+            {range, false, head.lower, head.upper, head.scale, head.centre, 0.1f, 0.1},
+            numbers.data(), numbers.size(), values.data());
+        for (std::size_t k = 0; k < numbers.size(); ++k) {
+            const double expected = solvers::real_value(head, static_cast<double>(numbers[k]));
+            EXPECT_NEAR(values[k], expected, 1e-5 * (1 + std::abs(expected))) << numbers[k];
+        }
+    }
+    // A value that is the default as a float is the default itself.
+    const float middle = 0;
+    double value = 0;
+    plan_loops().real_values({Range::Free, false, -infinity, infinity, 1, 0.1, 0.1f, 0.1}, &middle,
+                             1, &value);
+    EXPECT_EQ(value, 0.1);
+}
+
+TEST(PlanNoise, IsCorrelatedAndKeepsItsDistribution) {
+    constexpr std::size_t many = 20'000;
+    for (const double correlation : {0.0, 0.8}) {
+        PlanNoise noise(many, 1, 1, {&correlation, 1});
+        RandomStream stream(1, 2, 3);
+        for (int t = 0; t < 10; ++t) noise.next_step(stream);
+        const std::vector<float> before(noise.numbers(0), noise.numbers(0) + many);
+        const std::vector<std::int32_t> ranks_before(noise.ranks(0), noise.ranks(0) + many);
+        noise.next_step(stream);
+        double sum = 0, squares = 0, products = 0, ranks = 0, same = 0;
+        for (std::size_t p = 0; p < many; ++p) {
+            const auto x = static_cast<double>(noise.numbers(0)[p]);
+            sum += x;
+            squares += x * x;
+            products += x * static_cast<double>(before[p]);
+            ranks += noise.ranks(0)[p];
+            same += noise.ranks(0)[p] == ranks_before[p];
+        }
+        EXPECT_NEAR(sum / many, 0, 0.035);  // 5 standard errors
+        EXPECT_NEAR(squares / many, 1, 0.05);
+        EXPECT_NEAR(products / many, correlation, 0.035);
+        EXPECT_NEAR(ranks / many / rank_count, 0.5, 0.011);
+        EXPECT_NEAR(same / many, correlation, 0.02);
+        // Plans that begin again know nothing of what was before.
+        const std::vector<float> last(noise.numbers(0), noise.numbers(0) + many);
+        noise.restart();
+        noise.next_step(stream);
+        products = 0;
+        for (std::size_t p = 0; p < many; ++p)
+            products += static_cast<double>(noise.numbers(0)[p]) * static_cast<double>(last[p]);
+        EXPECT_NEAR(products / many, 0, 0.035);
+    }
+}
+
+// Records of a population are those of write_action for each plan.
+TEST(PlanActions, AreThoseOfSinglePlans) {
+    for (const rddl_simulator* simulator :
+         {&target(), &ladder(), &network(), &reservoir(), &car()}) {
+        SCOPED_TRACE(simulator->problem->domain);
+        const solvers::ActionSpace space = solvers::action_space(*simulator);
+        const solvers::ActionRecords records(*simulator);
+        Population population(plans, space.real_count(), space.index_count());
+        population.set_steps(1);
+        const double correlation = 0;
+        PlanNoise noise(plans, space.real_count(), space.index_count(), {&correlation, 1});
+        RandomStream stream(1, 2, 3);
+        Distribution distribution(space, {});
+        distribution.restart(1);
+        distribution.draw(stream, noise, population);
+        PlanActions actions(space, records, plans);
+        const std::size_t size = records.record_size();
+        std::vector<std::byte> all(plans * size), some(3 * size), expected(size);
+        actions.write(population, 0, {}, all.data());
+        const std::uint32_t chosen[] = {70, 0, 33};
+        actions.write(population, 0, chosen, some.data());
+        for (std::size_t k = 0; k < 3; ++k)
+            EXPECT_EQ(std::memcmp(all.data() + chosen[k] * size, some.data() + k * size, size), 0);
+        Plan plan;
+        plan.numbers.resize(static_cast<std::size_t>(space.real_count()));
+        plan.indices.resize(static_cast<std::size_t>(space.index_count()));
+        std::vector<float> row(static_cast<std::size_t>(space.column_count)), written = row;
+        int different = 0;
+        for (std::size_t p = 0; p < plans; ++p) {
+            population.get(p, plan);
+            solvers::write_action(space, plan.numbers.data(), plan.indices.data(), row.data());
+            records.read(all.data() + p * size, written.data());
+            for (std::size_t c = 0; c < row.size(); ++c)
+                EXPECT_NEAR(row[c], written[c], 1e-5f * (1 + std::abs(row[c])));
+            different += written != space.defaults;
+        }
+        EXPECT_GT(different, 10);
+    }
+}
+
+}  // namespace
+}  // namespace rddlc::planners
