@@ -20,28 +20,41 @@ if [ "${1:-}" = --all ]; then
     shift
 fi
 
+times=""
+began=$SECONDS
+# time_of NAME: notes the seconds since the last call.
+time_of() {
+    times+="${times:+, }$1 $((SECONDS - began)) s"
+    began=$SECONDS
+}
+
 step "1/4 packages and the Python environment of the conformance tests (.venv)"
 install_packages "${build_packages[@]}" "${test_packages[@]}"
 [ -x .venv/bin/python ] || python3 -m venv .venv
 .venv/bin/pip install --quiet --disable-pip-version-check \
     --requirement tests/conformance/requirements.txt
+time_of packages
 
 step "2/4 build"
 cmake -S . -B build -G Ninja --log-level=WARNING -DRDDLC_BUILD_TESTS=ON -DRDDLC_WARNINGS_AS_ERRORS=ON \
     -DRDDLC_ALL_TESTS="$all_tests"
 cmake --build build
+time_of build
 
 step "3/4 build with sanitizers"
 cmake -S . -B build/sanitize -G Ninja --log-level=WARNING -DRDDLC_BUILD_TESTS=ON \
     -DRDDLC_SANITIZE=ON -DCMAKE_BUILD_TYPE=None -DCMAKE_CXX_FLAGS="-Og -g1"  # builds in 4:41, -O1 in 6:16
 cmake --build build/sanitize --target sanitized_tests
+time_of "sanitized build"
 
 step "4/4 tests"
 # Some tests read all of rddlrepository, where they find it.
 RDDL_REPOSITORY=$(.venv/bin/python -c 'import rddlrepository; print(rddlrepository.__path__[0])')
 export RDDL_REPOSITORY
-# Tests that start with an empty cache of simulators compile the same again and again: once is enough.
+# Tests that start with an empty cache of simulators compile the same again and again: once is enough,
+# also for the precompiled header (https://ccache.dev/manual/4.7.html#_precompiled_headers).
 export PATH="/usr/lib/ccache:$PATH" CCACHE_DIR="$PWD/build/ccache" CCACHE_MAXSIZE=1G
+export CCACHE_SLOPPINESS=pch_defines,time_macros
 jobs=$(nproc)
 # The end of a long log says what failed, and how.
 show_failures() {
@@ -57,12 +70,15 @@ rm -f build/Testing/Temporary/LastTestsFailed.log build/sanitize/Testing/Tempora
 # Both sets run, even if the first fails; the exit status reports either failure.
 status=0
 ctest --test-dir build --parallel "$jobs" --output-on-failure ${once[@]+"${once[@]}"} "$@" || status=1
+time_of tests
 # The frames of sanitized code are several times as large: what just fits 8 MB of stack needs more.
 (
     ulimit -S -s 65536
     ctest --test-dir build/sanitize --label-regex sanitize --parallel "$jobs" --output-on-failure "$@"
 ) || status=1
+time_of "sanitized tests"
 show_failures build
 show_failures build/sanitize
+echo "took: $times"
 [ "$status" -eq 0 ] || echo "error: some tests failed" >&2
 exit "$status"

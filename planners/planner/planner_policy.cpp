@@ -109,7 +109,10 @@ std::pair<std::string, Words> words_of(const std::string& policy) {
         if (sign == std::string::npos)
             throw usage(fmt::format("plan:{}: '{}' is no option: options have the form key=value",
                                     parts.front(), parts[i]));
-        words.emplace_back(parts[i].substr(0, sign), parts[i].substr(sign + 1));
+        const std::string key = parts[i].substr(0, sign);
+        if (std::ranges::count(words, key, &Words::value_type::first) > 0)
+            throw usage(fmt::format("plan:{}: option '{}' is given twice", parts.front(), key));
+        words.emplace_back(key, parts[i].substr(sign + 1));
     }
     return {std::move(parts.front()), std::move(words)};
 }

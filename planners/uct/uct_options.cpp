@@ -9,7 +9,8 @@ using solvers::number_option;
 
 solvers::OptionTable<UctOptions> make_uct_table() {
     solvers::OptionTable<UctOptions> table = common_options<UctOptions>(
-        "Trials of a decision", "Steps that are looked ahead (40, or to the end of the episode)",
+        "Trials of a decision, rounded up to a multiple of lanes",
+        "Steps that are looked ahead (40, or to the end of the episode)",
         "That plays on from the leaves of the tree (no-op or random, whichever has the greater "
         "return)");
     solvers::OptionTable<UctOptions> own = {

@@ -33,7 +33,7 @@ workbench::ProblemFiles files_of(const std::string& domain, const std::string& i
 }
 
 std::string text_of(const Compilation& compilation) {
-    std::string text = render(compilation.diagnostics, compilation.sources, {}) +
+    std::string text = rddlc::render(compilation.diagnostics, compilation.sources, {}) +
                        closing_lines(compilation, "rddlc");
     while (text.ends_with('\n')) text.pop_back();
     return text;

@@ -28,6 +28,8 @@ TEST(PlannerNames, AreReadWithTheirOptions) {
               "plan:cem: there is no option 'step'; did you mean 'steps'?");
     EXPECT_EQ(refusal("plan:cem,steps"),
               "plan:cem: 'steps' is no option: options have the form key=value");
+    EXPECT_EQ(refusal("plan:cem,steps=1,horizon=2,steps=1"),
+              "plan:cem: option 'steps' is given twice");
     EXPECT_EQ(refusal("plan:cem,horizon=0"),
               "plan:cem: horizon: '0' is not an int from 1 to 100000");
     EXPECT_EQ(refusal("plan:cem,weights=all"),
