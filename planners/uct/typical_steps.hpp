@@ -1,5 +1,5 @@
-// Typical outcomes of all actions in many states at once: several draws of each step in one batch,
-// of which the one that is most like the others counts.
+// Typical outcomes of all actions in many states at once: steps of one batch in which each draw is
+// the median of its distribution.
 #pragma once
 
 #include "planners/simulation/finite_actions.hpp"
@@ -14,48 +14,42 @@
 
 namespace rddlc::planners {
 
-// Draws of each action; fewer with many actions.
-inline constexpr std::size_t most_typical_draws = 8;
-
 class TypicalSteps {
   public:
     // `simulator` and `actions` must outlive it.
-    TypicalSteps(const rddl_simulator& simulator, const FiniteActions& actions, std::uint64_t seed);
+    TypicalSteps(const rddl_simulator& simulator, const FiniteActions& actions);
 
     // States that are taken at a time, and the steps that each of them costs.
     std::size_t most_states() const { return most_states_; }
-    std::int64_t cost() const { return static_cast<std::int64_t>(actions_.count() * draws_); }
+    std::int64_t cost() const { return static_cast<std::int64_t>(actions_.count()); }
     std::size_t action_count() const { return actions_.count(); }
     std::size_t state_size() const { return state_size_; }
 
-    // Results of a state are a function of the state and the seed alone.
+    // Results of a state are a function of the state alone.
     void run(std::span<const std::byte* const> states);
     bool is_legal(std::size_t state, std::size_t action) const;
-    // The mean of all draws; -inf where one of them faults.
+    // -inf where the step faults.
     double reward(std::size_t state, std::size_t action) const;
-    // The state after the most typical draw; NULL: the episode is over.
+    // The state after the step; NULL: the episode is over.
     const std::byte* next(std::size_t state, std::size_t action) const;
-    // Whether no draw changes the state.
+    // Whether it is the state before the step.
     bool is_unchanged(std::size_t state, std::size_t action) const;
 
   private:
-    std::size_t lane(std::size_t state, std::size_t action, std::size_t draw) const {
-        return (state * actions_.count() + action) * draws_ + draw;
+    std::size_t lane(std::size_t state, std::size_t action) const {
+        return state * actions_.count() + action;
     }
     const std::byte* next_state(std::size_t k) const { return next_.data() + k * state_size_; }
     bool is_over(std::size_t k) const;
     bool has_failed(std::size_t k) const;
-    std::size_t typical_draw(std::size_t state, std::size_t action) const;
     void find_legal(std::size_t count);
 
     const rddl_simulator& simulator_;
     const FiniteActions& actions_;
-    std::uint64_t seed_;
-    std::size_t state_size_, draws_, most_states_;
+    std::size_t state_size_, most_states_;
     solvers::BatchHandle batch_;
     std::vector<std::byte> states_, next_, records_;
     std::vector<std::int64_t> steps_;
-    std::vector<std::uint64_t> streams_;
     std::vector<double> rewards_;
     std::vector<std::uint8_t> causes_;
     std::vector<std::int32_t> violated_;

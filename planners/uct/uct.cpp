@@ -55,13 +55,13 @@ std::int64_t affordable_lanes(const UctOptions& options, std::int64_t wanted) {
     return std::clamp<std::int64_t>(options.budget.steps.value_or(most_steps) / 160, 1, wanted);
 }
 
-// Whether the determinised problem values new states in a small part of the budget. Of each action
-// it takes the draws of a typical step, and those of what follows.
+// Whether the determinised problem values new states in a small part of the budget. Each action
+// takes a typical step, and the draws of what follows.
 bool may_determinise(const UctOptions& options, std::size_t actions) {
     constexpr std::size_t most_actions = 64;
-    constexpr std::int64_t least_states = 8;
+    constexpr std::int64_t least_states = 4;
     constexpr std::int64_t steps_of_action =
-        most_typical_draws + static_cast<std::int64_t>(later_draws) * later_steps;
+        1 + static_cast<std::int64_t>(later_draws) * later_steps;
     const std::int64_t steps = static_cast<std::int64_t>(actions) * steps_of_action;
     return actions <= most_actions &&
            options.budget.steps.value_or(most_steps) >= least_states * steps;
@@ -99,7 +99,7 @@ Uct::Uct(const PlannerContext& context, const UctOptions& options)
       records_(trials_.size() * action_size_),
       states_(trials_.size() * state_size_) {
     const auto lanes = static_cast<std::int64_t>(continuations_.lanes());
-    if (is_determinised()) typical_steps_.emplace(simulator_, actions_, options.seed);
+    if (is_determinised()) typical_steps_.emplace(simulator_, actions_);
     if (context.base) {
         policies_.emplace_back(simulator_, *context.base, lanes);
         if (context.base->priors) {

@@ -33,8 +33,7 @@ solvers::OptionTable<UctOptions> make_uct_table() {
         number_option<UctOptions, int>(
             {"lookahead", "lookahead", "N",
              "States that a search in the determinised problem may meet, beginning with that of "
-             "the "
-             "decision: it is as deep as that allows (64)"},
+             "the decision: it is as deep as that allows (256)"},
             [](auto& o) -> auto& { return o.lookahead; }, 1, 1 << 20),
         choice_option<UctOptions, Backup>(
             {"backup", "backup", "HOW",

@@ -422,6 +422,14 @@ struct rddl_simulator {
      * engine; others are refused, except that bytes which are no snapshots at all are not
      * recognised for sure. */
     rddl_error (*set_snapshots)(rddl_batch*, int64_t begin, int64_t count, const void* snapshots);
+
+    /* ---- the problem without luck, for planners; also lacking in the first of version 3 */
+
+    /* From their next step on, and until set_seeds or set_seed, environments [begin, begin + count)
+     * draw no random numbers: each uniform number is 1/2. So each draw that one number decides is
+     * the median of its distribution: a Bernoulli draw is its likelier value, a normal one its
+     * mean. */
+    rddl_error (*draw_medians)(rddl_batch*, int64_t begin, int64_t count);
 };
 
 /* What a shared object exports under the name "rddl_simulator_entry". */

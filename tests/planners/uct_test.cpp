@@ -202,7 +202,7 @@ TEST(DeterminisedProblem, HasTheValuesOfTypicalCourses) {
     const auto size = static_cast<std::size_t>(simulator.problem->state_size);
     const auto actions = FiniteActions::of(simulator, solvers::action_space(simulator), 10);
     ASSERT_TRUE(actions);
-    TypicalSteps steps(simulator, *actions, 0);
+    TypicalSteps steps(simulator, *actions);
     DeterminisedProblem problem(size, 1);
     std::vector<std::byte> record(size);
     simulator.initial_state(&simulator, record.data());

@@ -257,6 +257,7 @@ rddl_simulator table_of(const Switching& owner) {
     table.snapshot_size = Forward<&rddl_simulator::snapshot_size>::call;
     table.get_snapshots = Forward<&rddl_simulator::get_snapshots>::call;
     table.set_snapshots = Forward<&rddl_simulator::set_snapshots>::call;
+    table.draw_medians = Forward<&rddl_simulator::draw_medians>::call;
     return table;
 }
 

@@ -531,6 +531,11 @@ class Functions {
             all.set_stream(i, {.seed = seeds[k], .identity = 0});
         });
     }
+    static rddl_error draw_medians(rddl_batch* batch, std::int64_t begin, std::int64_t count) {
+        return for_each(batch, begin, count, [&](auto& all, std::int64_t, std::int64_t i) {
+            all.set_stream(i, Stream::of_medians());
+        });
+    }
     static rddl_error set_seed(rddl_batch* batch, std::uint64_t seed) {
         if (batch == nullptr) return missing("the batch");
         handle(batch).use([&](auto& environments) { environments.set_seed(seed); });
@@ -781,7 +786,8 @@ rddl_simulator Functions<L>::table(const Parts& parts) {
             .grounding_name = grounding_name,
             .snapshot_size = size_of_snapshot,
             .get_snapshots = get_snapshots,
-            .set_snapshots = set_snapshots};
+            .set_snapshots = set_snapshots,
+            .draw_medians = draw_medians};
 }
 
 template <class L>

@@ -148,14 +148,13 @@ RDDL_INLINE R real_of(const RealsInMemory<R>& reals, int object) {
 template <class R, class Probability>
 RDDL_INLINE std::uint64_t drawn_bits(const Context<ScalarOf<R>>& context, Place place, int first,
                                      std::uint64_t wanted, const Probability& p) {
-    const philox::Schedule<philox::draw_rounds, std::uint64_t> schedule(
-        context.step, {context.key.low, context.key.high});
+    const StepDraws draws(context);
     std::uint64_t drawn = 0;
     for (int k = 0; k < 64; k += objects_at_once) {
         const auto some = Mask<objects_at_once>::of_bits(wanted >> k);
         if (!any(some)) continue;
         const SomeObjects<objects_at_once> objects{first + k, 64 - __builtin_clzll(some.bits)};
-        Context<Objects<objects_at_once, R>> drawing{schedule, some};
+        Context<Objects<objects_at_once, R>> drawing{draws, some};
         const Place of_first(place.site, place.index + first + k, place.series);
         const Mask<objects_at_once> below = uniform_at(drawing, of_first) < reals_of(p, objects);
         drawn |= std::uint64_t{(below && some).bits} << k;

@@ -59,7 +59,7 @@ struct Elements {
 
 template <int n, class R>
 struct Context<Objects<n, R>> {
-    const philox::Schedule<philox::draw_rounds, std::uint64_t>& schedule;
+    const StepDraws& draws;
     Mask<n> active;  // the lanes whose values are used: they alone can fault
     int faulty_lane = n;
     FaultRecord fault{};  // of the first of the lanes that have one
@@ -94,10 +94,11 @@ RDDL_INLINE Lanes<std::int64_t, n> in_range(const Context<Objects<n, R>>& contex
 template <int n, class R>
 RDDL_INLINE Lanes<R, n> uniform_at(Context<Objects<n, R>>& context, Place place) {
     using Word = Lanes<std::uint64_t, n / 2>;
+    if (context.draws.are_medians) return Lanes<R, n>{R(median_number)};
     const Word first{std::uint64_t{place.index / 2}};
     philox::Block<Word> words;
-    context.schedule.generate(place.series, first + Word::load(detail::lane_numbers<n / 2>.data()),
-                              words);
+    context.draws.schedule.generate(place.series,
+                                    first + Word::load(detail::lane_numbers<n / 2>.data()), words);
     return unit_real<R>(
         interleaved(join_lower_halves(words[0], words[1]), join_lower_halves(words[2], words[3])));
 }
@@ -263,11 +264,10 @@ namespace detail {
 
 template <int n, class R, class Body>
 RDDL_INLINE void for_each_of_several(Context<ScalarOf<R>>& context, Index count, Body&& body) {
-    const philox::Schedule<philox::draw_rounds, std::uint64_t> schedule(
-        context.step, {context.key.low, context.key.high});
+    const StepDraws draws(context);
     const auto some_at = [&](Index first, int some_count) RDDL_INLINE_LAMBDA {
         const SomeObjects<n> objects{first, some_count};
-        Context<Objects<n, R>> some{schedule, objects.mask()};
+        Context<Objects<n, R>> some{draws, objects.mask()};
         body(some, objects);
         if (some.fault && !context.fault) context.fault = some.fault;
     };

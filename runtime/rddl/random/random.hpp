@@ -51,6 +51,17 @@ RDDL_INLINE Real open_unit_real(Real unit) {
     return unit + 0x1p-24f;
 }
 
+// Each uniform number in a stream of median_key.
+inline constexpr double median_number = 0.5;
+
+template <int n>
+RDDL_INLINE Mask<n> is_median_key(const Lanes<std::uint64_t, n>& low,
+                                  const Lanes<std::uint64_t, n>& high) {
+    using Int = Lanes<std::int64_t, n>;
+    return ints_of(low) == Int{std::int64_t{median_key.low}} &&
+           ints_of(high) == Int{std::int64_t{median_key.high}};
+}
+
 // ------------------------------------------------------------------- one number of each draw
 
 // A counter value gives two numbers. They are the first ones of two draws, whose indices differ
@@ -82,6 +93,7 @@ template <std::uint32_t count, int n, class R>
     using Block = philox::Block<Lanes<std::uint64_t, n>>;
     if (!context.is_scheduled) {
         context.schedule.begin(context.step, {context.key_low, context.key_high});
+        context.draws_medians = is_median_key(context.key_low, context.key_high);
         context.is_scheduled = true;
     }
     auto& recent = context.recent[place.series % recent_series];
@@ -103,6 +115,10 @@ template <std::uint32_t count, int n, class R>
         store(words, recent.numbers);
         store(other_words, recent.numbers + 2);
     }
+    if (any(context.draws_medians))
+        for (std::uint32_t k = 0; k < count; ++k)
+            recent.numbers[k] =
+                select(context.draws_medians, Lanes<R, n>{R(median_number)}, recent.numbers[k]);
 }
 
 template <int n, class R>
@@ -130,7 +146,8 @@ RDDL_INLINE Mask<n> uniform_below(Context<Pack<n, R>>& context, Place place, Mas
         const auto numbers =
             first_numbers<R, std::uint64_t>(context.step[lane], place.series, place.index / 2,
                                             {context.key_low[lane], context.key_high[lane]});
-        const R u = place.index % 2 == 0 ? numbers.even : numbers.odd;
+        const R random = place.index % 2 == 0 ? numbers.even : numbers.odd;
+        const R u = context.key(lane) == median_key ? R(median_number) : random;
         if (!(u < get_lane(p, lane))) below.set(lane, false);
     });
     return below;
@@ -170,7 +187,7 @@ template <class Standard, class R>
     constexpr int lanes = pairs_at_once<Standard, R>;
     using Word = Lanes<std::uint64_t, lanes>;
     const Word first{std::uint64_t{chunk} * lanes};
-    const auto draws = first_numbers<R, Word>(
+    const auto made = first_numbers<R, Word>(
         Word{std::uint64_t{context.step}}, series,
         first + Word::load(detail::lane_numbers<lanes>.data()),
         {Word{std::uint64_t{context.key.low}}, Word{std::uint64_t{context.key.high}}});
@@ -178,8 +195,11 @@ template <class Standard, class R>
     recent.series = series;
     recent.kind = Standard::kind;
     recent.chunk = chunk;
-    Standard::of(draws.even).store(recent.numbers[0]);
-    Standard::of(draws.odd).store(recent.numbers[1]);
+    using Real = std::remove_const_t<decltype(made.even)>;
+    const Real median{R(median_number)};
+    const bool is_median = context.key == median_key;
+    Standard::of(is_median ? median : made.even).store(recent.numbers[0]);
+    Standard::of(is_median ? median : made.odd).store(recent.numbers[1]);
 }
 
 template <class Standard, class R>
@@ -207,6 +227,17 @@ RDDL_INLINE typename L::Real standard_at(Context<L>& context, Place place) {
     return Standard::of(uniform_at(context, place));
 }
 
+// The part that all draws of a step of one environment share, for loops that draw in registers.
+struct StepDraws {
+    template <class R>
+    explicit RDDL_INLINE StepDraws(const Context<ScalarOf<R>>& context)
+        : schedule(context.step, {context.key.low, context.key.high}),
+          are_medians(context.key == median_key) {}
+
+    philox::Schedule<philox::draw_rounds, std::uint64_t> schedule;
+    bool are_medians;
+};
+
 template <class L>
 RDDL_INLINE typename L::Real open_uniform_at(Context<L>& context, Place place) {
     return open_unit_real(uniform_at(context, place));
@@ -221,7 +252,7 @@ class Draws {
     static constexpr std::uint32_t first_count = 3;
 
     constexpr Draws(StreamKey key, std::uint32_t step, Place place)
-        : step_(step), place_(place), key_{key.low, key.high} {}
+        : step_(step), place_(place), key_{key.low, key.high}, is_median_(key == median_key) {}
     // The first numbers are known.
     constexpr Draws(StreamKey key, std::uint32_t step, Place place,
                     const std::array<double, first_count>& first)
@@ -234,6 +265,7 @@ class Draws {
         : Draws(context.key, context.step, place) {}
 
     constexpr double uniform() {
+        if (is_median_) return median_number;
         const std::uint32_t number = number_++;
         if (number < known_) return first_[number];
         if (number == 0) return first();
@@ -259,6 +291,7 @@ class Draws {
     std::uint64_t step_;
     Place place_;
     philox::Key<std::uint64_t> key_;
+    bool is_median_;
     std::uint32_t number_ = 0;
     double second_ = 0;  // of the counter value used last
     std::uint32_t known_ = 0;

@@ -143,6 +143,9 @@ struct Stream {
     std::uint64_t seed;
     std::uint64_t identity;
 
+    // Nothing is random (median_key). No environment has this identity.
+    static constexpr Stream of_medians() { return {0, ~std::uint64_t{0}}; }
+
     friend bool operator==(const Stream&, const Stream&) = default;
 };
 
@@ -222,7 +225,9 @@ void set_keys(const Blocks<L>& blocks, std::int64_t b, typename L::Bool lanes) {
     for_each_lane(lanes, [&](int lane) {
         const auto number = static_cast<std::uint64_t>(get_lane(episodes.number, lane));
         const Stream& stream = blocks.streams[b * L::width + lane];
-        const StreamKey key = stream_key(stream.seed, stream.identity, number);
+        const StreamKey key = stream == Stream::of_medians()
+                                  ? median_key
+                                  : stream_key(stream.seed, stream.identity, number);
         set_lane(episodes.key_low, lane, std::uint64_t{key.low});
         set_lane(episodes.key_high, lane, std::uint64_t{key.high});
     });

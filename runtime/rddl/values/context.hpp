@@ -32,6 +32,10 @@ struct StreamKey {
     std::uint32_t high = 0;
     constexpr bool operator==(const StreamKey&) const = default;
 };
+// The key of a stream in which nothing is random: each uniform number is 1/2. So draws are the
+// medians of their distributions where one number decides them: a Bernoulli draw is its likelier
+// value, a normal one its mean. An episode has this key by chance once in 2^64.
+inline constexpr StreamKey median_key{~std::uint32_t{0}, ~std::uint32_t{0}};
 
 // The kind of a fault; sites.hpp says it in words.
 enum class FaultKind : std::uint8_t {
@@ -140,6 +144,7 @@ struct Context<Pack<n, R>> {
 
     // The schedule of all draws of the step; the first one makes it.
     philox::Schedule<philox::draw_rounds, Word> schedule;
+    Mask<n> draws_medians;  // the lanes whose key is median_key
     bool is_scheduled = false;
 
     static Context of(const Word& key_low, const Word& key_high, const Word& step, Mask<n> active) {

@@ -278,5 +278,55 @@ TEST(Choices, AreDescribed) {
     EXPECT_EQ(choice.value, 1);
 }
 
+// Steps of all environments without actions.
+void make_steps(TinyBatch& batch, int count) {
+    for (int time = 0; time < count; ++time) batch.step();
+}
+
+TEST(DrawMedians, LeavesNothingToLuck) {
+    TinyBatch one(batch_options(1, 0, 42)), many(batch_options(21, 0, 7));
+    for (TinyBatch* batch : {&one, &many}) {
+        const auto count = static_cast<std::int64_t>(batch->size());
+        ASSERT_EQ(functions.draw_medians(batch->get(), 0, count), RDDL_OK);
+        make_steps(*batch, 10);
+        for (const StateRecord& state : batch->states()) {
+            EXPECT_EQ(state.running, good_state().running);  // they stop with the probability 0.02
+            EXPECT_EQ(state.wear, one.states().front().wear);
+        }
+    }
+    // The next episodes are also without luck; with other seeds there is luck again.
+    TinyBatch other(batch_options(1, 0, 1));
+    const std::uint64_t seed = 5;
+    for (TinyBatch* batch : {&one, &other}) {
+        functions.reset(batch->get(), nullptr, nullptr);
+        ASSERT_EQ(functions.draw_medians(batch->get(), 0, 1), RDDL_OK);
+        functions.reset(batch->get(), nullptr, nullptr);
+        make_steps(*batch, 3);
+    }
+    EXPECT_EQ(one.states().front().wear, other.states().front().wear);
+    const auto without_luck = one.states().front().wear;
+    for (TinyBatch* batch : {&one, &other}) {
+        ASSERT_EQ(functions.set_seeds(batch->get(), 0, 1, &seed), RDDL_OK);
+        functions.reset(batch->get(), nullptr, nullptr);
+        make_steps(*batch, 3);
+    }
+    EXPECT_EQ(one.states().front().wear, other.states().front().wear);
+    EXPECT_NE(one.states().front().wear, without_luck);
+}
+
+TEST(DrawMedians, LeavesOtherEnvironmentsTheirLuck) {
+    TinyBatch some(batch_options(21)), none(batch_options(21));
+    ASSERT_EQ(functions.draw_medians(some.get(), 3, 1), RDDL_OK);
+    for (TinyBatch* batch : {&some, &none}) make_steps(*batch, 4);
+    const auto states = some.states(), lucky = none.states();
+    for (std::size_t k = 0; k < states.size(); ++k) {
+        if (k == 3)
+            EXPECT_NE(states[k].wear, lucky[k].wear);
+        else
+            EXPECT_EQ(states[k].wear, lucky[k].wear) << k;
+    }
+    EXPECT_EQ(functions.draw_medians(some.get(), 20, 2), RDDL_BAD_ARGUMENT);
+}
+
 }  // namespace
 }  // namespace tiny

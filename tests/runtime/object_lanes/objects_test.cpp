@@ -43,6 +43,34 @@ Context<Scalar> context_of_step(std::uint32_t step) {
     return {stream_key(1, 2, 3), step, {}};
 }
 
+// One object after the other, several in registers, and packs.
+TEST(Objects, DrawMediansInAStreamWithoutLuck) {
+    const Tables from = tables();
+    Context<Scalar> context{median_key, 1, {}};
+    Grid<bool> drawn;
+    Grid<double> normal;
+    for_each_object(context, count, [&](auto& several, auto x) {
+        elements(drawn, x) = sample::bernoulli(several, {0, x}, at(from.level, x));
+        elements(normal, x) = sample::normal(several, {1, x}, at(from.level, x), 4.0);
+    });
+    using Lane = Pack<16>;
+    const auto word = [](std::uint64_t bits) {
+        return Lanes<std::uint64_t, 16>{bits};
+    };
+    auto packs =
+        Context<Lane>::of(word(median_key.low), word(median_key.high), word(1), Mask<16>(true));
+    for (Index i = 0; i < count; ++i) {
+        const auto at_i = [&](const auto& grid) {
+            return grid[i / columns][i % columns];
+        };
+        const double level = at_i(from.level);
+        EXPECT_EQ(at_i(drawn), level > 0.5) << level;
+        EXPECT_EQ(at_i(normal), level);
+        EXPECT_EQ(sample::bernoulli(context, {0, i}, level), level > 0.5);
+        EXPECT_EQ(sample::bernoulli(packs, {0, i}, level).bits, level > 0.5 ? 0xFFFF : 0);
+    }
+}
+
 TEST(Objects, AreElementsOfTables) {
     const Tables from = tables();
     Context<Scalar> context = context_of_step(1);
