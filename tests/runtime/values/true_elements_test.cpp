@@ -107,10 +107,10 @@ TEST(VisitTrue, MarksTheEntriesOfTheRowsOfTrueElements) {
         return (static_cast<std::size_t>(x + 5 * (entry - rows[static_cast<std::size_t>(x)]))) % n;
     };
     for (unsigned pattern = 0; pattern < 20; ++pattern) {
-        constexpr int width = 16;
-        std::array<Mask<width>, n> masks{}, of_masks;
-        std::array<std::array<bool, n>, width> expected{};
-        for (int lane = 0; lane < width; ++lane) {
+        constexpr int lanes = 16;
+        std::array<Mask<lanes>, n> masks{}, of_masks;
+        std::array<std::array<bool, n>, lanes> expected{};
+        for (int lane = 0; lane < lanes; ++lane) {
             std::array<bool, n> row{}, of_row;
             for (std::size_t x = 0; x < n; ++x) {
                 row[x] = (x * 7 + pattern * 13 + static_cast<unsigned>(lane)) % (pattern + 1) == 0;
@@ -127,12 +127,12 @@ TEST(VisitTrue, MarksTheEntriesOfTheRowsOfTrueElements) {
             });
             EXPECT_EQ(of_row, expected[static_cast<std::size_t>(lane)]);
         }
-        of_masks.fill(Mask<width>{true});
-        visit_true(of_masks, masks, rows, [&](Index x, Index entry, const Mask<width>& is_true) {
-            Mask<width>& element = of_masks[reached(x, entry)];
+        of_masks.fill(Mask<lanes>{true});
+        visit_true(of_masks, masks, rows, [&](Index x, Index entry, const Mask<lanes>& is_true) {
+            Mask<lanes>& element = of_masks[reached(x, entry)];
             element = element || is_true;
         });
-        for (int lane = 0; lane < width; ++lane)
+        for (int lane = 0; lane < lanes; ++lane)
             for (std::size_t x = 0; x < n; ++x)
                 EXPECT_EQ(of_masks[x][lane], expected[static_cast<std::size_t>(lane)][x]);
     }
