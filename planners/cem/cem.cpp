@@ -40,7 +40,7 @@ std::size_t population_of(const PlannerContext& context, const CemOptions& optio
 
 // The correlations of noise, for one plan after the other.
 std::span<const double> correlations_of(const CemOptions& options) {
-    static constexpr std::array<double, 4> mixture{0, 0.5, 0.8, 0.95};
+    static constexpr std::array<double, 5> mixture{0, 0.5, 0.8, 0.95, 1};
     if (options.correlation < 0) return mixture;
     return {&options.correlation, 1};
 }

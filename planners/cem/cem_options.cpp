@@ -28,8 +28,8 @@ solvers::OptionTable<O> make_cem_table() {
         number_option<O, double>(
             {"correlation", "correlation", "RHO",
              "Of the noise of one step and the next; below 0 (-1, the default): a mixture of 0, "
-             "0.5, 0.8 and 0.95"},
-            [](auto& o) -> auto& { return o.correlation; }, -1.0, 0.999),
+             "0.5, 0.8, 0.95 and 1"},
+            [](auto& o) -> auto& { return o.correlation; }, -1.0, 1.0),
         number_option<O, double>(
             {"spread", "spread", "X",
              "Deviation of the first plans, in half widths of the bounds (1)"},

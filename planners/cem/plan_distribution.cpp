@@ -85,13 +85,13 @@ void Distribution::shift() {
 
 void Distribution::draw(RandomStream& stream, PlanNoise& noise, Population& population) {
     const std::size_t plans = population.plans();
-    noise.restart();
+    noise.restart(stream);
     for (std::size_t t = 0; t < population.steps(); ++t) {
         noise.next_step(stream);
         for (std::size_t r = 0; r < reals(); ++r) {
             const float mean = means_[t * reals() + r], deviation = deviations_[t * reals() + r];
             loops_.scale_numbers(mean, deviation, space_.reals[r].range == RealHead::Range::Bounded,
-                                 noise.numbers(r), plans, population.numbers(t, r));
+                                 noise.widths(), noise.numbers(r), plans, population.numbers(t, r));
         }
         for (std::size_t h = 0; h < space_.categories.size(); ++h)
             draw_index(t, space_.categories[h].first_logit, space_.categories[h].count,

@@ -33,9 +33,10 @@ struct RealScale {
 struct PlanLoops {
     void (*next_numbers)(const NumberNoise& noise, std::size_t plans, float* numbers);
     void (*next_ranks)(const RankNoise& noise, std::size_t plans, std::int32_t* ranks);
-    // number = mean + deviation * noise; where it is bounded, between -1 and 1.
-    void (*scale_numbers)(float mean, float deviation, bool is_bounded, const float* noise,
-                          std::size_t plans, float* numbers);
+    // number = mean + deviation * noise; where it is bounded, between -1 and 1, else with noise
+    // that is widths[p] times as wide in plan p.
+    void (*scale_numbers)(float mean, float deviation, bool is_bounded, const float* widths,
+                          const float* noise, std::size_t plans, float* numbers);
     // reached[p] becomes the number of thresholds that ranks[p] reaches. They are in ascending
     // order and 2^n - 1.
     void (*count_reached)(const std::int32_t* thresholds, std::size_t count,

@@ -39,13 +39,14 @@ inline Real clamped(Real x, Real least, Real most) {
     return below > least ? below : least;
 }
 
-inline void scale_numbers(float mean, float deviation, bool is_bounded, const float* noise,
-                          std::size_t plans, float* numbers) {
+inline void scale_numbers(float mean, float deviation, bool is_bounded, const float* widths,
+                          const float* noise, std::size_t plans, float* numbers) {
     if (is_bounded)
         for (std::size_t p = 0; p < plans; ++p)
             numbers[p] = clamped(mean + deviation * noise[p], -1.0f, 1.0f);
     else
-        for (std::size_t p = 0; p < plans; ++p) numbers[p] = mean + deviation * noise[p];
+        for (std::size_t p = 0; p < plans; ++p)
+            numbers[p] = mean + deviation * widths[p] * noise[p];
 }
 
 inline void count_reached(const std::int32_t* thresholds, std::size_t count,

@@ -9,6 +9,7 @@ PlanNoise::PlanNoise(std::size_t plans, int reals, int ranks, std::span<const do
       plans_(plans),
       nothing_(plans, 0.0f),
       all_(plans, 1.0f),
+      widths_(plans, 1.0f),
       no_chance_(plans, 0),
       numbers_(static_cast<std::size_t>(reals) * plans),
       ranks_(static_cast<std::size_t>(ranks) * plans) {
@@ -18,6 +19,12 @@ PlanNoise::PlanNoise(std::size_t plans, int reals, int ranks, std::span<const do
         fresh_.push_back(static_cast<float>(std::sqrt(1 - correlation * correlation)));
         keep_.push_back(static_cast<std::uint32_t>(std::lround(256 * correlation)));
     }
+}
+
+void PlanNoise::restart(RandomStream& stream) {
+    is_first_ = true;
+    if (numbers_.empty()) return;
+    for (float& width : widths_) width = std::exp(std::abs(stream.bell()));
 }
 
 void PlanNoise::next_step(RandomStream& stream) {

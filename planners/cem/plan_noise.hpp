@@ -18,12 +18,15 @@ class PlanNoise {
     PlanNoise(std::size_t plans, int reals, int ranks, std::span<const double> correlations);
 
     // The plans begin again: the next step depends on nothing before it.
-    void restart() { is_first_ = true; }
+    void restart(RandomStream& stream);
     void next_step(RandomStream& stream);
 
     // Each plan has a number with mean 0 and deviation 1, between -3 and 3: an autoregressive
     // process of sums of three uniform numbers. A search needs no tails.
     const float* numbers(std::size_t real) const { return numbers_.data() + real * plans_; }
+    // How wide the noise of a plan is where numbers have no bounds, so that it is not known how
+    // large they have to be: at least 1, and more than 7 in one plan of 20.
+    const float* widths() const { return widths_.data(); }
     // Each plan has a uniform number in 0 .. rank_count - 1. It is that of the step before with the
     // probability of the correlation, else a new one: so ranks are uniform in each step.
     const std::int32_t* ranks(std::size_t rank) const { return ranks_.data() + rank * plans_; }
@@ -35,6 +38,7 @@ class PlanNoise {
     std::vector<float> old_, fresh_;    // weights, by plan
     std::vector<std::uint32_t> keep_;   // the probability of an old rank, in 256ths
     std::vector<float> nothing_, all_;  // the same of first steps
+    std::vector<float> widths_;
     std::vector<std::uint32_t> no_chance_;
     std::vector<float> numbers_;       // [real][plan]
     std::vector<std::int32_t> ranks_;  // [rank][plan]

@@ -61,7 +61,7 @@ TEST(PlanLoops, ComputeTheSameBitsOnAllInstructionSets) {
         using Range = solvers::RealHead::Range;
         for (const Range range :
              {Range::Bounded, Range::AboveLower, Range::BelowUpper, Range::Free}) {
-            loops.scale_numbers(0.5f, 2, range == Range::Bounded, noise.data(), plans,
+            loops.scale_numbers(0.5f, 2, range == Range::Bounded, old.data(), noise.data(), plans,
                                 numbers.data());
             note(numbers);
             for (const bool rounds : {false, true}) {
@@ -131,12 +131,16 @@ TEST(PlanNoise, IsCorrelatedAndKeepsItsDistribution) {
         EXPECT_NEAR(same / many, correlation, 0.02);
         // Plans that begin again know nothing of what was before.
         const std::vector<float> last(noise.numbers(0), noise.numbers(0) + many);
-        noise.restart();
+        noise.restart(stream);
         noise.next_step(stream);
         products = 0;
         for (std::size_t p = 0; p < many; ++p)
             products += static_cast<double>(noise.numbers(0)[p]) * static_cast<double>(last[p]);
         EXPECT_NEAR(products / many, 0, 0.035);
+        const float* const widths = noise.widths();
+        EXPECT_GE(*std::min_element(widths, widths + many), 1);
+        const auto wide = std::count_if(widths, widths + many, [](float w) { return w > 7; });
+        EXPECT_NEAR(static_cast<double>(wide) / many, 0.05, 0.01);
     }
 }
 
