@@ -1,0 +1,238 @@
+#!/usr/bin/env python3
+"""No-op, random actions, learners, planners and the optimum on many problems, side by side.
+
+    benchmarks/solvers/compare_all.py --out results.jsonl                   all problems, first instance
+    benchmarks/solvers/compare_all.py --out ippc2023.jsonl --context ippc2023 --without 0 --instances 5
+    benchmarks/solvers/compare_all.py --out ippc2011.jsonl --context ippc2011 --only _MDP_ --instances 10
+    benchmarks/solvers/compare_all.py --out results.jsonl --table           the table of what is there
+
+It can be interrupted at any time: what is in the file already is not done again. --methods names what is played; a learner
+trains for --seconds, a planner's decision simulates --steps. --prost FOLDER is PROST after its build.py, which plays against
+`rddl serve` with --prost-seconds for each decision. Times are of a processor, so that a busy machine says much the same.
+"""
+
+import argparse
+import json
+import os
+import re
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+from functools import partial
+from multiprocessing import Pool
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+LEARNERS = ("ppo", "cgp")
+PLANNERS = {"cem": "plan:cem", "uct": "plan:uct", "rollout": "plan:rollout,policy=random", "gradient": "plan:gradient"}
+METHODS = ("noop", "random", *PLANNERS, *LEARNERS, "optimum", "prost")
+
+
+class Failure(Exception):
+    """A method cannot be had for a problem; its text says why."""
+
+
+def run(words, seconds):
+    """What a program prints, and its seconds of processor time, children included."""
+    with tempfile.TemporaryFile("w+") as out, tempfile.TemporaryFile("w+") as err:
+        process = subprocess.Popen([str(word) for word in words], stdout=out, stderr=err, start_new_session=True)
+        end = time.monotonic() + seconds
+        while True:
+            pid, status, usage = os.wait4(process.pid, os.WNOHANG)
+            if pid:
+                break
+            if time.monotonic() > end:
+                os.killpg(process.pid, signal.SIGKILL)
+                os.wait4(process.pid, 0)
+                process.returncode = -signal.SIGKILL
+                raise Failure(f"longer than {seconds:.0f} s")
+            time.sleep(0.02)
+        process.returncode = os.waitstatus_to_exitcode(status)
+        out.seek(0)
+        err.seek(0)
+        if process.returncode != 0:
+            lines = [line for line in err.read().splitlines() if line.strip()]
+            raise Failure(next((line for line in lines if "error" in line), lines[-1] if lines else "failed"))
+        return out.read(), usage.ru_utime + usage.ru_stime
+
+
+def evaluated(policy, problem, arguments, training=0.0):
+    printed, seconds = run([arguments.rddl, "evaluate", *problem, "--policy", policy, "--episodes", arguments.episodes,
+                            "--seed", arguments.seed + 1000, "--threads", 1, "--json", "--cheat"], arguments.limit)
+    of = json.loads(printed)["policies"][0]
+    return {"mean": of["return"]["mean"], "half_width": of["return"]["half_width_95"], "episodes": of["episodes"],
+            "decisions": of["steps"], "illegal": of["illegal_actions"], "seconds": seconds, "training_seconds": training}
+
+
+def learned(solver, problem, arguments):
+    with tempfile.TemporaryDirectory() as folder:
+        budget = ["--steps", "1e12"] if solver == "ppo" else ["--gens", "100000000"]
+        _, seconds = run([arguments.rddl, "train", solver, *problem, "--out", f"{folder}/{solver}", "--seed", arguments.seed,
+                          "--time", arguments.seconds, "--memory-limit", "8G", "--threads", 1, "--quiet", *budget],
+                         10 * arguments.seconds + 600)
+        return evaluated(f"{folder}/{solver}", problem, arguments, seconds)
+
+
+def optimum(problem, arguments):
+    printed, seconds = run([arguments.rddl, "solve", *problem, "--json", "--threads", 1, "--cheat"], arguments.limit)
+    of = json.loads(printed)
+    return {"mean": of["optimum"], "half_width": of["error"], "states": of["states"], "seconds": seconds}
+
+
+def prost(problem, details, arguments):
+    """PROST by the protocol of the competitions; its return is that which the server prints."""
+    name, instance = problem
+    folder = Path(details["folder"])
+    text = (folder / f"instance{instance}.rddl").read_text()
+    instance_name = re.search(r"\binstance\s+(\w+)", text)[1]
+    horizon = int(re.search(r"\bhorizon\s*=\s*(\d+)", text)[1])
+    with tempfile.TemporaryDirectory() as name_of_folder:
+        work = Path(name_of_folder)
+        for source in (arguments.prost / "builds/release/rddl_parser/rddl-parser",):
+            (work / "rddl-parser-release").symlink_to(source)
+        seconds = arguments.episodes * horizon * arguments.prost_seconds
+        with (work / "serve").open("w+") as log:
+            server = subprocess.Popen([str(word) for word in (
+                arguments.rddl, "serve", name, instance, "--port", 0, "--rounds", arguments.episodes, "--time", seconds,
+                "--seed", arguments.seed + 1000, "--sessions", 1)], stdout=log, stderr=subprocess.STDOUT)
+            try:
+                while " at " not in (said := (work / "serve").read_text()):
+                    if server.poll() is not None:
+                        raise Failure(said.strip())
+                    time.sleep(0.05)
+                port = said.rsplit(":", 1)[1].split()[0]
+                os.chdir(work)
+                _, used = run([arguments.prost / "builds/release/search/search", instance_name, "-p", port,
+                               "[PROST -s 1 -tm UNI -se [IPC2014]]"], 2 * seconds + 300)
+                server.wait(10)
+            finally:
+                os.chdir(ROOT)
+                server.kill()
+        found = re.search(r"return (-?[\d.e+]+)(?: ± ([\d.e+]+))?", (work / "serve").read_text())
+        if not found:
+            raise Failure((work / "serve").read_text().strip().splitlines()[-1])
+        return {"mean": float(found[1]), "half_width": float(found[2] or 0), "episodes": arguments.episodes, "seconds": used}
+
+
+def played(method, problem, details, arguments):
+    if method in PLANNERS:
+        return evaluated(f"{PLANNERS[method]},steps={arguments.steps}", problem, arguments) | {"steps": arguments.steps}
+    if method in LEARNERS:
+        return learned(method, problem, arguments)
+    if method == "optimum":
+        return optimum(problem, arguments)
+    if method == "prost":
+        return prost(problem, details, arguments)
+    return evaluated(method, problem, arguments)
+
+
+def result_or_failure(arguments, job):
+    method, name, instance, details = job
+    result = {"problem": name, "instance": instance, "method": method}
+    try:
+        return result | played(method, (name, instance), details, arguments)
+    except Failure as failure:
+        return result | {"failure": str(failure)}
+
+
+def jobs_of(problems, done, arguments):
+    """What is to be done, method after method, so that every column grows from the top."""
+    chosen = [problem for problem in problems
+              if (not arguments.context or problem["context"] in arguments.context)
+              and (not arguments.only or arguments.only in problem["name"])]
+    for method in arguments.methods:
+        for problem in chosen:
+            instances = [instance for instance in problem["instances"] if instance not in arguments.without]
+            for instance in instances[:arguments.instances]:
+                if (problem["name"], instance, method) not in done:
+                    yield method, problem["name"], instance, problem
+
+
+def cell(result):
+    if result is None:
+        return ""
+    if "failure" in result:
+        return "-"
+    if not isinstance(result["mean"], (int, float)):
+        return str(result["mean"])
+    width = result["half_width"]
+    return f"{result['mean']:.4g} ± {width:.2g}" if width else f"{result['mean']:.4g}"
+
+
+def is_above(result, floors):
+    """Whether a return exceeds all of these by more than chance: half of the width of both intervals together."""
+    return all(result["mean"] - floor["mean"] > max(1e-3 * abs(floor["mean"]),
+                                                    (result["half_width"] ** 2 + floor["half_width"] ** 2) ** 0.5 / 2)
+               for floor in floors)
+
+
+def has_value(result):
+    return result is not None and "failure" not in result and all(
+        isinstance(result[key], (int, float)) for key in ("mean", "half_width"))
+
+
+def table(results):
+    rows = {}
+    for result in results:
+        rows.setdefault((result["problem"], int(result["instance"])), {})[result["method"]] = result
+    methods = [method for method in METHODS if any(method in row for row in rows.values())]
+    lines = ["| problem | | " + " | ".join(methods) + " | ms a decision |", "|" + "---|" * (len(methods) + 3)]
+    above = dict.fromkeys((method for method in methods if method not in ("noop", "random", "optimum")), 0)
+    best = 0
+    for (problem, instance), row in sorted(rows.items()):
+        times = [f"{1000 * row[name]['seconds'] / row[name]['decisions']:.2g}" if has_value(row.get(name)) else "-"
+                 for name in methods if name in PLANNERS]
+        lines.append(f"| {problem} | {instance} | " + " | ".join(cell(row.get(name)) for name in methods) +
+                     " | " + ", ".join(times) + " |")
+        floors = [row[name] for name in ("noop", "random") if has_value(row.get(name))]
+        good = [name for name in above if has_value(row.get(name)) and is_above(row[name], floors)]
+        best += bool(good)
+        for name in good:
+            above[name] += 1
+    lines.append(f"\nBetter than no-op and random, by more than a thousandth and more than chance, of {len(rows)}: " + ", ".join(
+        f"{name} on {count}" for name, count in above.items()) + f"; at least one of them on {best}.")
+    return "\n".join(lines)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
+    parser.add_argument("--rddl", default=ROOT / "build/bin/rddl")
+    parser.add_argument("--out", type=Path, required=True)
+    parser.add_argument("--methods", nargs="*", default=METHODS[:-1], choices=METHODS)
+    parser.add_argument("--context", nargs="*", help="only problems of these contexts, such as ippc2023")
+    parser.add_argument("--only", help="only problems whose names contain this")
+    parser.add_argument("--instances", type=int, default=1, help="so many of each problem")
+    parser.add_argument("--without", default=[], nargs="*", help="instances that are left out: 0 is not one of the competition's")
+    parser.add_argument("--episodes", type=int, default=10)
+    parser.add_argument("--steps", type=int, default=20000, help="simulated steps of a planner's decision")
+    parser.add_argument("--seconds", type=float, default=60, help="a learner's time")
+    parser.add_argument("--limit", type=float, default=300, help="seconds after which a method is given up")
+    parser.add_argument("--prost", type=Path, help="folder of PROST, after its build.py")
+    parser.add_argument("--prost-seconds", type=float, default=0.05)
+    parser.add_argument("--seed", type=int, default=0)
+    parser.add_argument("--jobs", type=int, default=1, help="problems at the same time")
+    parser.add_argument("--table", action="store_true", help="print what is there")
+    arguments = parser.parse_args()
+    lines = arguments.out.read_text().splitlines() if arguments.out.exists() else []
+    results = list(map(json.loads, lines))
+    if arguments.table:
+        print(table(results))
+        return 0
+    if "prost" in arguments.methods and not arguments.prost:
+        parser.error("--methods prost needs --prost FOLDER")
+    done = {(result["problem"], result["instance"], result["method"]) for result in results}
+    problems = json.loads(run([arguments.rddl, "list", "--json"], 600)[0])
+    # Processes, not threads, which Ctrl-C would wait for.
+    with Pool(arguments.jobs) as pool:
+        for result in pool.imap_unordered(partial(result_or_failure, arguments), jobs_of(problems, done, arguments)):
+            line = json.dumps(result)
+            with arguments.out.open("a") as file:
+                file.write(line + "\n")
+            print(line, flush=True)
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
