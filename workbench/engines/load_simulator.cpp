@@ -247,13 +247,12 @@ std::optional<LoadedProblem> load_known(const ProblemFiles& files, const LoadOpt
     return problem;
 }
 
-LoadedProblem load_problem(const ProblemFiles& files, const LoadOptions& given) {
+LoadedProblem load_problem(const ProblemFiles& files, const LoadOptions& options) {
     const Stopwatch watch;
-    LoadOptions options = given;
     Compilation compilation = compile_problem(files, options);
     const double compile_seconds = watch.seconds();
     give_up_on_errors(compilation);
-    if (!options.quiet && print_policy_warnings(compilation, files)) options.remembers = false;
+    print_policy_warnings(compilation, files);
     LoadedProblem problem = load_compilation(std::move(compilation), files, options);
     problem.costs.compile_seconds = compile_seconds;
     problem.costs.load_seconds = watch.seconds();

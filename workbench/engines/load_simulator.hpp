@@ -87,8 +87,8 @@ LoadedProblem load_compilation(Compilation compilation, const ProblemFiles& file
 // must be compiled: problems with external functions always.
 std::optional<LoadedProblem> load_known(const ProblemFiles& files, const LoadOptions& options);
 
-// Compiles and loads. Prints the diagnostics and throws Diagnosed if there are errors. Prints the
-// warnings of a policy's own file each time: such a problem is not remembered.
+// Compiles and loads. Prints the diagnostics and throws Diagnosed if there are errors. Of warnings,
+// prints those in the policy's own file.
 LoadedProblem load_problem(const ProblemFiles& files, const LoadOptions& options);
 
 }  // namespace rddlc::workbench

@@ -15,9 +15,8 @@ CompileOptions check_options(const ProblemFiles& files, Stage last);
 // Prints all diagnostics on stderr.
 void print_diagnostics(const Compilation& compilation);
 
-// Prints the warnings that stand in the file of files.policy, which `rddl check` does not read;
-// true if there are any.
-bool print_policy_warnings(const Compilation& compilation, const ProblemFiles& files);
+// Prints the warnings that stand in the file of files.policy, which `rddl check` does not read.
+void print_policy_warnings(const Compilation& compilation, const ProblemFiles& files);
 
 // If there are errors, prints all diagnostics and throws Diagnosed. Warnings alone are not shown:
 // `rddl check` does that.
