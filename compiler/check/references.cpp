@@ -19,13 +19,18 @@ model::ValueType object_type(model::TypeId type) {
 Typed check_object(const std::string& name, const Object& object, Span span, Scope& scope) {
     const model::Type& type = scope.context.type(object.type);
     if (!type.enumerated && !scope.may_name_objects) {
+        const bool of_policy = scope.context.model.policy.has_value();
         scope.context.report(
-            diagnose(
-                object_in_domain, span,
-                fmt::format("'{}' is an object of the instance: the domain cannot name it", name))
+            diagnose(object_in_domain, span,
+                     fmt::format("'{}' is an object of the instance: {} cannot name it", name,
+                                 of_policy ? "a policy's CPFs" : "the domain"))
                 .note(object.span, fmt::format("object of type '{}'", type.name))
-                .with_hint(
-                    "use a variable, or a non-fluent that the instance sets for this object"));
+                .with_hint(of_policy
+                               ? fmt::format("declare a non-fluent of the policy for it, as "
+                                             "in THE-ONE : {{ non-fluent, {}, default = {} }};",
+                                             type.name, name)
+                               : "use a variable, or a non-fluent that the instance sets for "
+                                 "this object"));
         return std::nullopt;
     }
     return model::Expr{object_type(object.type), span, model::Constant{object.index}};

@@ -18,4 +18,6 @@ inline constexpr Code broken_cpp_compiler{'E', 910};
 inline constexpr Code no_policy_block{'E', 911};
 inline constexpr Code no_such_instance{'E', 912};
 
+inline constexpr Code idle_lanes{'W', 901};
+
 }  // namespace rddlc

@@ -48,6 +48,15 @@ void refuse_float_reals(const CompileOptions& options, const ir::Program& progra
     if (options.lane_count == 8) refuse("with --lanes=8: a register may hold 16 floats");
 }
 
+void warn_of_idle_lanes(const CompileOptions& options, const ir::Program& program,
+                        Diagnostics& diagnostics) {
+    const std::string_view why = ir::why_without_packs(program);
+    if (options.lane_count.value_or(1) == 1 || why.empty()) return;
+    diagnostics.report(Diagnostic{
+        idle_lanes, {}, fmt::format("--lanes={} has no effect {}", *options.lane_count, why)}
+                           .with_hint("such a simulator computes one environment at a time"));
+}
+
 constexpr std::array<std::string_view, 8> stage_names = {"read",   "parse",    "check", "ground",
                                                          "verify", "optimise", "emit",  "write"};
 constexpr std::array<std::string_view, 5> form_names = {"ast", "model", "ir", "ir-opt", "cpp"};
@@ -132,6 +141,7 @@ void run_emit(Run& run) {
     report_large_constant_tables(*result.program, diagnostics);
     if (run.options.real == RealType::Float)
         refuse_float_reals(run.options, *result.program, diagnostics);
+    warn_of_idle_lanes(run.options, *result.program, diagnostics);
     if (diagnostics.has_errors()) return;
     const EmitOptions emitting = emit_options(run.options, *result.program);
     result.text = run.measure(Stage::Emit, [&] {

@@ -12,10 +12,6 @@
 namespace rddlc::ir {
 namespace {
 
-Scalar scalar_of(const Value& value) {
-    return static_cast<Scalar>(value.index());
-}
-
 // A node as a sequence of words: equal words, equal node. Reals count by their bits.
 class Key {
   public:

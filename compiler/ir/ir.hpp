@@ -52,6 +52,11 @@ using ExternalId = Id<struct ExternalTag>;
 enum class Scalar : std::uint8_t { Bool, Int, Real };
 using Value = rddlc::Value;
 
+// The enumerators stand in the order of a Value's alternatives.
+inline Scalar scalar_of(const Value& value) {
+    return static_cast<Scalar>(value.index());
+}
+
 // A loop index, running over [0, size). Named as in the RDDL text, without "?".
 struct Variable {
     std::string name;

@@ -1,9 +1,11 @@
 #include "ir/lane_count.hpp"
 
 #include "ir/action_bools.hpp"
+#include "ir/analysis.hpp"
 #include "ir/cost_model.hpp"
 #include "ir/layout.hpp"
 
+#include <algorithm>
 #include <cstddef>
 
 namespace rddlc::ir {
@@ -30,6 +32,14 @@ int suitable_lane_count(const Program& program) {
     if (many * action_size > cache_bytes) return few;
     const PackCost cost = pack_cost_of_step(program);
     return cost.block > least_ratio * cost.numbers ? many : few;
+}
+
+std::string_view why_without_packs(const Program& program) {
+    if (program.policy) return "with a policy block";
+    if (std::ranges::any_of(blocks_of(program),
+                            [](const Block* block) { return calls_functions(*block); }))
+        return "with matrices, random vectors or external functions";
+    return "";
 }
 
 }  // namespace rddlc::ir

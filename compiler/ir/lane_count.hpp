@@ -4,6 +4,7 @@
 #include "ir/ir.hpp"
 
 #include <array>
+#include <string_view>
 
 namespace rddlc::ir {
 
@@ -18,5 +19,9 @@ inline constexpr std::array suitable_lane_counts = {16, 64};
 // rule few lanes need them. A pack reads all of its action records: where a step reads few bools of
 // many, each environment takes less time alone. docs/lanes.md has the measurements.
 int suitable_lane_count(const Program& program);
+
+// Why steps of this program compute one environment at a time, whatever the number of lanes, as
+// "with a policy block"; empty if they need not.
+std::string_view why_without_packs(const Program& program);
 
 }  // namespace rddlc::ir

@@ -82,7 +82,7 @@ class Verifier {
         require(buffer.values.size() == expected, "'{}' has {} values instead of {}", buffer.name,
                 buffer.values.size(), expected);
         const auto typed = [&](const Value& value) {
-            return value.index() == static_cast<std::size_t>(buffer.scalar);
+            return scalar_of(value) == buffer.scalar;
         };
         require(buffer.values.all_of(typed), "'{}' has values of another type", buffer.name);
     }
@@ -233,9 +233,7 @@ class Verifier {
         return both;
     }
 
-    bool fits(const Constant& form, Scalar type) const {
-        return form.value.index() == static_cast<std::size_t>(type);
-    }
+    bool fits(const Constant& form, Scalar type) const { return scalar_of(form.value) == type; }
     bool fits(const Index&, Scalar type) const { return type == Scalar::Int; }
     bool fits(const Load& form, Scalar type) const {
         const Buffer& buffer = program_[form.buffer];

@@ -196,8 +196,20 @@ Hint words_of_logic(const SyntaxError& error) {
 Hint cpf_parameters(const SyntaxError& error) {
     const bool parameter = error.expects(Parser::VAR) && !error.expects(Parser::INT);
     if (error.context->getRuleIndex() != Parser::RuleCpf || !parameter) return {};
-    return "a definition is for all objects, so its parameters are variables; distinguish objects "
-           "on the right-hand side: if (?x == @a) then ...";
+    if (!is(&error.found(), Parser::ID))
+        return "a definition is for all objects, so its parameters are variables; distinguish "
+               "objects on the right-hand side: if (?x == @a) then ...";
+    // The name may be that of an object, which no expression can name, or lack its '?'.
+    const std::string name = error.found().getText();
+    const std::string source =
+        inside(error, Parser::RulePolicy)
+            ? fmt::format("the policy declares THE-ONE : {{ non-fluent, TYPE, default = {} }};",
+                          name)
+            : "THE-ONE is a non-fluent that the instance sets";
+    return fmt::format(
+        "a definition is for all objects, so its parameters are variables such as ?{0}; "
+        "distinguish objects on the right-hand side: if (?{0} == THE-ONE) then ..., where {1}",
+        name, source);
 }
 
 Hint separators(const SyntaxError& error) {

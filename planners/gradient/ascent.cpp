@@ -9,6 +9,12 @@ namespace rddlc::planners {
 namespace {
 
 constexpr std::size_t group_size = solvers::derivative_lanes;
+// Steps between two looks at the stops.
+constexpr std::size_t steps_between_looks = 64;
+
+bool must_end(std::size_t step, const solvers::Stops* stops) {
+    return step % steps_between_looks == 0 && solvers::is_stopped(stops);
+}
 
 }  // namespace
 
@@ -32,12 +38,13 @@ bool Ascent::improve(std::span<AscendingPlan* const> plans, std::span<const doub
     values_.assign(plans.size(), 0.0);
     const std::size_t all = plans.size() * scenarios_;
     for (std::size_t first = 0; first < all; first += group_size) {
-        if (solvers::is_stopped(stops)) return false;
         begin_group(first, std::min(group_size, all - first), seeds);
-        const std::size_t steps = play(plans, state, steps_made, static_cast<std::size_t>(horizon));
+        const std::size_t steps =
+            play(plans, state, steps_made, static_cast<std::size_t>(horizon), stops);
         for (std::size_t k = 0; k < group_size_; ++k)
             values_[(first + k) / scenarios_] += returns_[k] / static_cast<double>(scenarios_);
-        pull_back(plans, steps_made, steps);
+        pull_back(plans, steps_made, steps, stops);
+        if (solvers::is_stopped(stops)) return false;
     }
     for (std::size_t p = 0; p < plans.size(); ++p) {
         plans[p]->value = values_[p];
@@ -65,9 +72,10 @@ void Ascent::write_actions(std::span<AscendingPlan* const> plans, std::size_t st
     }
 }
 
-// Returns the steps that are made, until the last episode ends.
+// Returns the steps that are made, until the last episode ends or the stops say so.
 std::size_t Ascent::play(std::span<AscendingPlan* const> plans, std::span<const double> state,
-                         std::int64_t steps_made, std::size_t horizon) {
+                         std::int64_t steps_made, std::size_t horizon,
+                         const solvers::Stops* stops) {
     const std::size_t count = state.size();
     states_.resize((horizon + 1) * count);
     reward_weight_.assign(horizon, Lane{});
@@ -77,6 +85,7 @@ std::size_t Ascent::play(std::span<AscendingPlan* const> plans, std::span<const 
     returns_ = {};
     double discount = 1;
     for (std::size_t t = 0; t < horizon; ++t, discount *= discount_) {
+        if (must_end(t, stops)) return t;
         write_actions(plans, t);
         const std::span now = std::span(states_).subspan(t * count, count);
         derivatives_.step(steps_made + static_cast<std::int64_t>(t), now, action_);
@@ -97,11 +106,12 @@ std::size_t Ascent::play(std::span<AscendingPlan* const> plans, std::span<const 
 
 // Values of each step are computed again, so that memory holds its states alone.
 void Ascent::pull_back(std::span<AscendingPlan* const> plans, std::int64_t steps_made,
-                       std::size_t steps) {
+                       std::size_t steps, const solvers::Stops* stops) {
     const std::size_t count = derivatives_.state_count();
     const std::size_t row = gradients_.size() / plans.size();
     std::ranges::fill(next_adjoint_, Lane{});
     for (std::size_t t = steps; t-- > 0;) {
+        if (must_end(t, stops)) return;
         write_actions(plans, t);
         derivatives_.step(steps_made + static_cast<std::int64_t>(t),
                           std::span(states_).subspan(t * count, count), action_);

@@ -40,9 +40,9 @@ class Ascent {
                      std::span<const std::uint64_t> seeds);
     void write_actions(std::span<AscendingPlan* const> plans, std::size_t step);
     std::size_t play(std::span<AscendingPlan* const> plans, std::span<const double> state,
-                     std::int64_t steps_made, std::size_t horizon);
+                     std::int64_t steps_made, std::size_t horizon, const solvers::Stops* stops);
     void pull_back(std::span<AscendingPlan* const> plans, std::int64_t steps_made,
-                   std::size_t steps);
+                   std::size_t steps, const solvers::Stops* stops);
     void move(AscendingPlan& plan, std::span<const double> gradient, double rate,
               std::int64_t iteration) const;
 

@@ -79,6 +79,23 @@ TEST_F(PolicyProgram, EvaluatesFilesSideBySide) {
     EXPECT_NE(refused.err.find("wrong.rddl:1:"), std::string::npos) << refused.err;
 }
 
+TEST_F(PolicyProgram, ShowsTheWarningsOfItsFile) {
+    write_file(folder_ / "two.rddl",
+               "policy first { cpfs { pump(?t) = true; power = @low; extra = 0.0; }; }\n"
+               "policy second { domain = others; cpfs { pump(?t) = false; power = @low; extra = "
+               "0.0; }; }");
+    for (const char* command : {"run", "evaluate"}) {
+        const Outcome outcome =
+            run(on_tanks(command, "--policy two.rddl --episodes 2") + interpreted);
+        EXPECT_EQ(outcome.status, 0) << outcome.err;
+        expect_part(outcome.err, "two.rddl:1:1: warning: this 'policy' is ignored: a later one");
+        expect_part(outcome.err, "two.rddl:2:26: warning: this is for domain 'others', but");
+    }
+    // The domain's own warnings are those of `rddl check`, also if the policy has none.
+    write_file(folder_ / "instance.rddl", tanks_instance + with_extra("0.0") + with_extra("0.0"));
+    EXPECT_EQ(run(on_tanks("run", "--policy policy.rddl --episodes 2") + interpreted).err, "");
+}
+
 // The part of a trace about the steps.
 std::string steps_of(const std::string& trace) {
     return trace.substr(trace.find('\n'));

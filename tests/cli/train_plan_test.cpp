@@ -62,6 +62,32 @@ TEST_F(TrainPlan, keeps_the_plan_after_an_interrupt) {
     EXPECT_EQ(played.status, 0) << played.err;
 }
 
+// The first gradient of so many steps and plans takes far longer than two seconds.
+TEST_F(TrainPlan, WritesNothingAfterAnInterruptBeforeTheFirstGradient) {
+    write_file(folder_ / "p.rddl",
+               "domain d { types { cell : { @a, @b, @c, @d, @e, @f, @g, @h, @i, @j }; };\n"
+               "  pvariables { at(cell) : { state-fluent, real, default = 0.0 };\n"
+               "  move(cell) : { action-fluent, real, default = 0.0 }; };\n"
+               "  cpfs { at'(?c) = move(?c) + (sum_{?d : cell, ?e : cell} cos[at(?c) * at(?d) + "
+               "at(?e)]) / 99.0; };\n"
+               "  reward = -(sum_{?c : cell} at(?c) * at(?c));\n"
+               "  action-preconditions { forall_{?c : cell} [move(?c) >= -1 ^ move(?c) <= 1]; }; "
+               "}\n"
+               "non-fluents n { domain = d; }\n"
+               "instance i { domain = d; non-fluents = n; horizon = 2; discount = 1.0; }\n");
+    const Outcome outcome =
+        run("train plan p.rddl --out plan.jsonl --iterations 1000 --horizon 100000" +
+                std::string(interpreted),
+            "timeout --preserve-status -s INT 2");
+    EXPECT_EQ(outcome.status, 130);
+    EXPECT_EQ(outcome.out, "");
+    expect_part(outcome.err,
+                "rddl: error: interrupted while computing the first gradient: there is no plan "
+                "yet\n");
+    for (const auto& entry : std::filesystem::directory_iterator(folder_))
+        EXPECT_EQ(entry.path().string().find("plan.jsonl"), std::string::npos) << entry;
+}
+
 TEST_F(TrainPlan, SaysThatThePlanIsThereAfterAnInterruptOfItsEvaluation) {
     const Outcome outcome =
         run("train plan domain.rddl instance.rddl --out plan.jsonl --iterations 1 "

@@ -29,6 +29,12 @@ class BuilderTest : public testing::Test {
     Workbench w;
 };
 
+TEST_F(BuilderTest, ConstantsHaveTheTypeOfTheirValue) {
+    EXPECT_EQ(scalar_of(Value(true)), Scalar::Bool);
+    EXPECT_EQ(scalar_of(Value(std::int64_t{1})), Scalar::Int);
+    EXPECT_EQ(scalar_of(Value(1.0)), Scalar::Real);
+}
+
 TEST_F(BuilderTest, GivesEqualExpressionsEqualIds) {
     const NodeId a = w.apply(Operator::Add, level(), w.real(2.0));
     const NodeId b = w.apply(Operator::Add, level(), w.real(2.0));

@@ -144,6 +144,28 @@ class Diagnostics(Test):
         client.change("instance.rddl", INSTANCE.replace("horizon = 10;", "horizon = ;"))
         self.assertEqual([each.get("code") for each in client.checked("instance.rddl")], ["E0101", None])
 
+    def test_a_policy_without_a_domain(self):
+        client = self.client()
+        policy = "policy rain {\n cpfs { douse(?p) = burnin(?p); };\n}\n"
+        places = "the open files and the folder of this one"
+        client.open("policy.rddl", policy)
+        (note,) = client.checked("policy.rddl")
+        self.assertEqual(covered(policy, note["range"]), "policy rain {")
+        self.assertEqual(note["severity"], 3)
+        self.assertEqual(note["message"], "this file names no domain, so the syntax alone is checked\n"
+                         f"hint: write 'domain = NAME;' in the block: it is looked for in {places}")
+        (self.folder / "domain.rddl").write_text(DOMAIN)
+        client.change("policy.rddl", policy + "// one domain is here\n")
+        (note,) = client.checked("policy.rddl")
+        self.assertIn("write 'domain = fire;'", note["message"])
+        client.change("policy.rddl", policy.replace("{\n", "{ domain = fire;\n", 1))
+        self.assertEqual([each["code"] for each in client.checked("policy.rddl")], ["E0201"])
+        client.change("policy.rddl", policy.replace("{\n", "{ domain = water;\n", 1))
+        (note,) = client.checked("policy.rddl")
+        self.assertIn(f"the domain 'water', so the syntax alone is checked ({places})", note["message"])
+        client.change("policy.rddl", policy.replace("burnin(?p);", ";"))
+        self.assertEqual([each.get("code") for each in client.checked("policy.rddl")], ["E0101", None])
+
     def test_closing_takes_diagnostics_away(self):
         client = self.client()
         client.open("domain.rddl", DOMAIN.replace("burning(?p);", "burnin(?p);"))

@@ -275,6 +275,18 @@ TEST(Errors, PlacesOfConstructs) {
               "E0101: expected ',' or '}', found 'case' | the cases of a switch are separated by "
               "commas");
     EXPECT_EQ(parse_text("domain d { cpfs { p'(@a) = 1; q'(b) = 2; }; }").codes(), "E0101 E0101");
+    EXPECT_EQ(errors_in_domain("cpfs { p'(b) = 2; };"),
+              "E0101: expected a variable such as ?x or ')', found 'b' | a definition is for all "
+              "objects, "
+              "so its parameters are variables such as ?b; distinguish objects on the right-hand "
+              "side: if (?b == THE-ONE) then ..., where THE-ONE is a non-fluent that the instance "
+              "sets");
+    EXPECT_EQ(
+        summary(parse_text("policy p { cpfs { pour(rose) = true; }; }")),
+        "E0101: expected a variable such as ?x or ')', found 'rose' | a definition is for all "
+        "objects, so its parameters are variables such as ?rose; distinguish objects on the "
+        "right-hand side: if (?rose == THE-ONE) then ..., where the policy declares THE-ONE "
+        ": { non-fluent, TYPE, default = rose };");
     EXPECT_EQ(errors_in_domain("types { l : {a, @b}; };"),
               "E0101: expected a value such as @a or '}', found 'a' | values are written with '@': "
               "@a");

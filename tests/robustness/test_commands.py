@@ -259,6 +259,18 @@ class Options(CommandTest):
         self.assert_refused(result, "E0904")
         self.assertEqual(result.output, "")
 
+    def test_lanes_with_a_policy_block(self):
+        folder = ROOT / "examples/mountain_car"
+        problem = folder / "domain.rddl", folder / "instance.rddl"
+        policy = folder / "policy.rddl"
+        result = self.run_command(RDDLC, *problem, policy, "--lanes=16")
+        self.assertEqual(result.status, 0, result.errors)
+        self.assertIn("warning: --lanes=16 has no effect with a policy block [W0901]\n", result.errors)
+        for quiet in (["--lanes=1"], [], ["--lanes=16", "-Wno-W0901"]):
+            result = self.run_command(RDDLC, *problem, policy, *quiet)
+            self.assertEqual((result.status, result.errors), (0, ""), quiet)
+        self.assertEqual(self.run_command(RDDLC, *problem, "--lanes=16").errors, "")
+
     def test_wrong_command_lines(self):
         for words in ([RDDLC], [RDDLC, *PROBLEM, "policy.rddl", "fourth.rddl"],
                       [RDDLC, *PROBLEM, "--nonsense"],

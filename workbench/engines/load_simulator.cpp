@@ -252,6 +252,7 @@ LoadedProblem load_problem(const ProblemFiles& files, const LoadOptions& options
     Compilation compilation = compile_problem(files, options);
     const double compile_seconds = watch.seconds();
     give_up_on_errors(compilation);
+    print_policy_warnings(compilation, files);
     LoadedProblem problem = load_compilation(std::move(compilation), files, options);
     problem.costs.compile_seconds = compile_seconds;
     problem.costs.load_seconds = watch.seconds();

@@ -87,7 +87,8 @@ LoadedProblem load_compilation(Compilation compilation, const ProblemFiles& file
 // must be compiled: problems with external functions always.
 std::optional<LoadedProblem> load_known(const ProblemFiles& files, const LoadOptions& options);
 
-// Both. Prints the diagnostics and throws Diagnosed if there are errors.
+// Compiles and loads. Prints the diagnostics and throws Diagnosed if there are errors. Of warnings,
+// prints those in the policy's own file.
 LoadedProblem load_problem(const ProblemFiles& files, const LoadOptions& options);
 
 }  // namespace rddlc::workbench

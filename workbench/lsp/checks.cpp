@@ -71,10 +71,15 @@ std::vector<CheckRequest::Problem> problems_of(const FilePtr& file, const Family
     for (const FilePtr& instance : instances_for(family, *file))
         problems.push_back({inputs_with(family, instance), is_policy ? file : nullptr, file});
     if (!problems.empty()) return problems;
-    return {{{family.domain ? family.domain : file}, is_policy ? file : nullptr, file}};
+    return {{{family.domain ? family.domain : file},
+             is_policy ? file : nullptr,
+             file,
+             has_choice ? family.domains_around.front() : nullptr}};
 }
 
 // ------------------------------------------------------------------------ one run of checks
+
+constexpr std::string_view places_of_domains = "the open files and the folder of this one";
 
 constexpr int error_severity = 1, warning_severity = 2, information_severity = 3;
 
@@ -233,11 +238,27 @@ class Checker {
         return line.size() <= longest ? line : line.substr(0, longest) + "...";
     }
 
+    // A policy need not name its domain, but only a name leads to the domain.
+    void tell_of_unnamed_domain(const File& file, const FilePtr& other) {
+        if (file.outline.blocks.empty()) return;
+        const std::string_view text = file.text.string();
+        Json json;
+        const std::size_t end = std::min(text.find('\n'), text.size());
+        json["range"] = file.text.range({0, static_cast<std::uint32_t>(end)});
+        json["severity"] = information_severity;
+        json["source"] = "rddl";
+        json["message"] = fmt::format(
+            "this file names no domain, so the syntax alone is checked\nhint: write 'domain = {};' "
+            "in the block: it is looked for in {}",
+            other ? domain_of(*other) : "NAME", places_of_domains);
+        publish(file, std::move(json), nullptr);
+    }
+
     void tell_of_missing_domain(const File& file, const FilePtr& other) {
         const auto& blocks = file.outline.blocks;
         const auto named =
             std::ranges::find_if(blocks, [](const Block& block) { return !block.domain.empty(); });
-        if (named == blocks.end()) return;
+        if (named == blocks.end()) return tell_of_unnamed_domain(file, other);
         const auto& occurrences = file.outline.occurrences;
         const auto place = std::ranges::find_if(
             occurrences, [](const Occurrence& each) { return each.meaning == Meaning::Domain; });
@@ -246,7 +267,8 @@ class Checker {
         json["severity"] = information_severity;
         json["source"] = "rddl";
         json["message"] = fmt::format(
-            "no file here declares the domain '{}', so the syntax alone is checked", named->domain);
+            "no file here declares the domain '{}', so the syntax alone is checked ({})",
+            named->domain, places_of_domains);
         if (!other) return publish(file, std::move(json), nullptr);
         const std::string_view name = domain_of(*other);
         json["message"] =

@@ -34,6 +34,18 @@ void print_diagnostics(const Compilation& compilation) {
     if (compilation.diagnostics.has_errors()) tell(closing_lines(compilation, "rddl"));
 }
 
+void print_policy_warnings(const Compilation& compilation, const ProblemFiles& files) {
+    if (!files.policy) return;
+    Diagnostics warnings;
+    for (const Diagnostic& each : compilation.diagnostics.all())
+        if (each.span && compilation.sources[each.span->file].path() == files.policy->string())
+            warnings.report(each);
+    if (warnings.all().empty()) return;
+    RenderOptions options;
+    options.color = tells_in_color();
+    tell_with_codes(render(warnings, compilation.sources, options));
+}
+
 Compilation compile_or_give_up(const CompileOptions& options) {
     Compilation compilation = compile(options);
     give_up_on_errors(compilation);

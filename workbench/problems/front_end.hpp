@@ -15,6 +15,9 @@ CompileOptions check_options(const ProblemFiles& files, Stage last);
 // Prints all diagnostics on stderr.
 void print_diagnostics(const Compilation& compilation);
 
+// Prints the warnings that stand in the file of files.policy, which `rddl check` does not read.
+void print_policy_warnings(const Compilation& compilation, const ProblemFiles& files);
+
 // If there are errors, prints all diagnostics and throws Diagnosed. Warnings alone are not shown:
 // `rddl check` does that.
 Compilation compile_or_give_up(const CompileOptions& options);

@@ -42,14 +42,19 @@ std::string planner_of(const TrainPlanOptions& options, std::int64_t horizon) {
 }
 
 // A signal ends the search in the first step, and the episode is then played to its end by the plan
-// that was found.
-solvers::Policy ending_search_by_signals(solvers::Policy policy) {
-    policy.start = [start = policy.start](std::int64_t environments) {
+// that was found. Before the first of the `gradients` there is no plan, so that nothing is played.
+solvers::Policy ending_search_by_signals(solvers::Policy policy,
+                                         std::shared_ptr<const std::int64_t> gradients) {
+    policy.start = [start = policy.start, gradients](std::int64_t environments) {
         const solvers::Actor actor = start(environments);
         give_up_if_interrupted("making the planner");
-        return [actor, stops = solvers::Stops(is_interrupted)](solvers::Decision& decision) {
-            decision.stops = decision.steps.front() == 0 ? &stops : nullptr;
+        return [actor, gradients,
+                stops = solvers::Stops(is_interrupted)](solvers::Decision& decision) {
+            const bool searches = decision.steps.front() == 0;
+            decision.stops = searches ? &stops : nullptr;
             actor(decision);
+            if (searches && *gradients == 0)
+                give_up_if_interrupted("computing the first gradient: there is no plan yet");
         };
     };
     return policy;
@@ -101,6 +106,10 @@ ExitStatus train_plan(const TrainPlanOptions& options) {
     rollouts.planner = planner_of(options, horizon);
     rollouts.planning.derivatives = problem.derivatives;
     rollouts.planning.cheat = true;  // a plan looks at no state but the first
+    const auto gradients = std::make_shared<std::int64_t>(0);
+    rollouts.planning.explain = [gradients](const planners::Explanation& explanation) {
+        *gradients += explanation.iterations;
+    };
     rollouts.seed = options.seed;
     rollouts.horizon = options.horizon;
     rollouts.memory_limit = options.problem.memory_limit;
@@ -116,7 +125,8 @@ ExitStatus train_plan(const TrainPlanOptions& options) {
     give_up_if_interrupted("making the planner");
     const solvers::Policy policy =
         ending_search_by_signals(policy_named(simulator, rollouts.planner, false, options.seed,
-                                              rollouts.memory_limit, rollouts.planning));
+                                              rollouts.memory_limit, rollouts.planning),
+                                 gradients);
     PlanLines plan;
     run_episodes(simulator, policy, rollouts,
                  [&](const std::string& lines) {

@@ -7,6 +7,7 @@
 #include "emit/lower/functions.hpp"
 #include "emit/lower/moderate.hpp"
 #include "emit/lower/tables.hpp"
+#include "ir/lane_count.hpp"
 
 #include <fmt/format.h>
 
@@ -414,11 +415,8 @@ std::string about(const Unit& unit, const DetailsUnit* details) {
 
 namespace {
 
-// Policies and functions of whole tables work on one environment at a time.
 bool has_packs(const Unit& unit) {
-    return unit.options.lane_count > 1 && !unit.program.policy &&
-           std::ranges::none_of(ir::blocks_of(unit.program),
-                                [](const ir::Block* block) { return ir::calls_functions(*block); });
+    return unit.options.lane_count > 1 && ir::why_without_packs(unit.program).empty();
 }
 
 }  // namespace

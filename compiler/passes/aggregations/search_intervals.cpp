@@ -72,7 +72,7 @@ ir::BufferId new_table(ir::Builder& builder, const PiecewiseConstant& pieces,
     const ir::Program& program = builder.program();
     ir::Buffer table{.name = name_of_number(program, pieces.number) + suffix,
                      .storage = ir::Storage::Constant,
-                     .scalar = static_cast<ir::Scalar>(values.front().index()),
+                     .scalar = ir::scalar_of(values.front()),
                      .shape = {static_cast<std::int64_t>(values.size())},
                      .values = std::move(values),
                      .span = program.reward.span};

@@ -296,7 +296,7 @@ class CountTabulation {
         }
         ir::Buffer table{.name = name,
                          .storage = ir::Storage::Constant,
-                         .scalar = static_cast<ir::Scalar>(values.front().index()),
+                         .scalar = ir::scalar_of(values.front()),
                          .shape = std::move(shape),
                          .span = span_};
         table.values = std::move(values);
