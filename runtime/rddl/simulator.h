@@ -181,8 +181,9 @@ typedef struct {
     uint32_t struct_size;
     int32_t thread_count;      /* 0: one per core, but not more than environments */
     int64_t environment_count; /* 0: 1 */
-    int64_t first_environment; /* identity of environment 0: its random numbers depend on the seed
-                                  and the identity, never on batch size, place, threads or ranks */
+    int64_t first_environment; /* identity of environment 0, at least 0: its random numbers depend on
+                                  the seed and the identity, never on batch size, place, threads or
+                                  ranks */
     uint64_t seed;
     rddl_autoreset autoreset;
     int32_t lane_count;  /* environments stepped together in vector registers: 0: chosen for the
@@ -427,8 +428,8 @@ struct rddl_simulator {
 
     /* From their next step on, and until set_seeds or set_seed, environments [begin, begin + count)
      * draw no random numbers: each uniform number is 1/2. So each draw that one number decides is
-     * the median of its distribution: a Bernoulli draw is its likelier value, a normal one its
-     * mean. */
+     * the median of its distribution: a Bernoulli draw is its likelier value (false where both are
+     * alike), a normal one its mean, up to rounding. */
     rddl_error (*draw_medians)(rddl_batch*, int64_t begin, int64_t count);
 };
 

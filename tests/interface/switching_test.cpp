@@ -202,6 +202,10 @@ TEST(Switching, RefusesWithTheReasonOfItsEngine) {
     wrong.environment_count = -1;
     EXPECT_EQ(simulator->create(simulator.get(), &wrong), nullptr);
     EXPECT_STREQ(simulator->last_error(simulator.get()), "environment_count is negative: -1");
+    wrong.environment_count = 1;
+    wrong.first_environment = -1;
+    EXPECT_EQ(simulator->create(simulator.get(), &wrong), nullptr);
+    EXPECT_STREQ(simulator->last_error(simulator.get()), "first_environment is negative: -1");
 }
 
 TEST(Switching, StaysInterpretedIfTheBuildFails) {

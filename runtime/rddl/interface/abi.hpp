@@ -62,6 +62,8 @@ void write_struct(Struct* to, Struct value) {
 inline rddl_error check_options(const rddl_batch_options& given, std::int64_t lane_count) {
     if (given.environment_count < 0)
         return bad_argument("environment_count is negative: ", given.environment_count);
+    if (given.first_environment < 0)
+        return bad_argument("first_environment is negative: ", given.first_environment);
     if (given.thread_count < 0)
         return bad_argument("thread_count is negative: ", std::int64_t{given.thread_count});
     if (number_of(given.autoreset) < RDDL_AUTORESET_DISABLED ||

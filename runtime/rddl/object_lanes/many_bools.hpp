@@ -105,6 +105,18 @@ struct ManyBools {
     }
 };
 
+// Whether the bytes that a caller has given for bools are not 0 (bits.hpp).
+template <int n>
+RDDL_INLINE ManyBools<bool, n> is_true(const ManyBools<bool, n>& given) {
+    using Vector = typename ManyBools<bool, n>::Vector;
+    return ManyBools<bool, n>::each([](Vector x) { return simd::reinterpret<Vector>(x != 0) & 1; },
+                                    given);
+}
+template <int lanes, int n>
+RDDL_INLINE ManyBools<Mask<lanes>, n> is_true(const ManyBools<Mask<lanes>, n>& given) {
+    return given;
+}
+
 template <class T>
 inline constexpr bool is_many_bools = false;
 template <class Bool, int n>

@@ -143,7 +143,7 @@ struct Stream {
     std::uint64_t seed;
     std::uint64_t identity;
 
-    // Nothing is random (median_key). No environment has this identity.
+    // Nothing is random (median_key). No environment has this identity, since none is negative.
     static constexpr Stream of_medians() { return {0, ~std::uint64_t{0}}; }
 
     friend bool operator==(const Stream&, const Stream&) = default;

@@ -34,7 +34,7 @@ struct StreamKey {
 };
 // The key of a stream in which nothing is random: each uniform number is 1/2. So draws are the
 // medians of their distributions where one number decides them: a Bernoulli draw is its likelier
-// value, a normal one its mean. An episode has this key by chance once in 2^64.
+// value, a normal one its mean, up to rounding. An episode has this key by chance once in 2^64.
 inline constexpr StreamKey median_key{~std::uint32_t{0}, ~std::uint32_t{0}};
 
 // The kind of a fault; sites.hpp says it in words.

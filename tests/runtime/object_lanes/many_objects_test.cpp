@@ -118,5 +118,21 @@ TEST(ManyObjects, OfPacks) {
     expect_the_same<Pack<64, float>, 21, 21, std::uint8_t>();
 }
 
+// Callers give any byte but 0 for true; in packs they are masks already.
+TEST(ManyObjects, TestTheBytesOfActions) {
+    constexpr int n = 100;
+    std::array<std::uint8_t, n> given, tested;
+    for (std::size_t i = 0; i < n; ++i)
+        given[i] = static_cast<std::uint8_t>(i % 3 == 0 ? 0 : 5 * i);
+    store_many(is_true(load_many<n>(reinterpret_cast<const bool*>(given.data()))),
+               reinterpret_cast<bool*>(tested.data()));
+    for (std::size_t i = 0; i < n; ++i) EXPECT_EQ(tested[i], given[i] != 0) << i;
+
+    std::array<Mask<16>, n> masks, same;
+    for (std::size_t i = 0; i < n; ++i) masks[i] = bool_at<Pack<16>>(i);
+    store_many(is_true(load_many<n>(masks.data())), same.data());
+    for (std::size_t i = 0; i < n; ++i) EXPECT_EQ(same[i].bits, masks[i].bits) << i;
+}
+
 }  // namespace
 }  // namespace rddl
