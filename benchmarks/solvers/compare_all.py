@@ -39,16 +39,18 @@ def run(words, seconds):
     with tempfile.TemporaryFile("w+") as out, tempfile.TemporaryFile("w+") as err:
         process = subprocess.Popen([str(word) for word in words], stdout=out, stderr=err, start_new_session=True)
         end = time.monotonic() + seconds
-        while True:
-            pid, status, usage = os.wait4(process.pid, os.WNOHANG)
-            if pid:
-                break
-            if time.monotonic() > end:
+        pid = 0
+        try:
+            while not pid:
+                if time.monotonic() > end:
+                    raise Failure(f"longer than {seconds:.0f} s")
+                time.sleep(0.02)
+                pid, status, usage = os.wait4(process.pid, os.WNOHANG)
+        finally:  # also after Ctrl-C
+            if not pid:
                 os.killpg(process.pid, signal.SIGKILL)
                 os.wait4(process.pid, 0)
                 process.returncode = -signal.SIGKILL
-                raise Failure(f"longer than {seconds:.0f} s")
-            time.sleep(0.02)
         process.returncode = os.waitstatus_to_exitcode(status)
         out.seek(0)
         err.seek(0)
@@ -90,8 +92,7 @@ def prost(problem, details, arguments):
     horizon = int(re.search(r"\bhorizon\s*=\s*(\d+)", text)[1])
     with tempfile.TemporaryDirectory() as name_of_folder:
         work = Path(name_of_folder)
-        for source in (arguments.prost / "builds/release/rddl_parser/rddl-parser",):
-            (work / "rddl-parser-release").symlink_to(source)
+        (work / "rddl-parser-release").symlink_to(arguments.prost / "builds/release/rddl_parser/rddl-parser")
         seconds = arguments.episodes * horizon * arguments.prost_seconds
         with (work / "serve").open("w+") as log:
             server = subprocess.Popen([str(word) for word in (
@@ -187,7 +188,7 @@ def table(results):
         lines.append(f"| {problem} | {instance} | " + " | ".join(cell(row.get(name)) for name in methods) +
                      " | " + ", ".join(times) + " |")
         floors = [row[name] for name in ("noop", "random") if has_value(row.get(name))]
-        good = [name for name in above if has_value(row.get(name)) and is_above(row[name], floors)]
+        good = [name for name in above if len(floors) == 2 and has_value(row.get(name)) and is_above(row[name], floors)]
         best += bool(good)
         for name in good:
             above[name] += 1

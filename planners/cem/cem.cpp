@@ -321,7 +321,8 @@ void Cem::decide(const DecisionPoint& point, std::byte* action, Explanation* exp
     Memory& memory = memory_of(point);
     const bool compares = simulator_.problem->stochastic || base_;
     const auto lanes = static_cast<std::int64_t>(lanes_);
-    const auto comparison = [&](std::int64_t depth) {  // its steps
+    const std::int64_t played = lanes + (base_ ? 1 : 0);  // with the policy's plan
+    const auto comparison = [&](std::int64_t depth) {     // its steps
         const bool has_tail = base_ && point.left != no_end;
         return compares ? lanes * (has_tail ? point.left : depth) : 0;
     };
@@ -329,7 +330,8 @@ void Cem::decide(const DecisionPoint& point, std::byte* action, Explanation* exp
     double seconds = 0;
     do {
         const double before = meter.seconds();
-        const std::int64_t affordable_steps = std::max<std::int64_t>(1, meter.steps_left() / lanes);
+        const std::int64_t affordable_steps =
+            std::max<std::int64_t>(1, meter.steps_left() / played);
         const std::int64_t wanted = std::min({point.left, memory.horizon, affordable_steps});
         plans_.set_steps(wanted);
         draw_streams(stream, population_);
@@ -352,7 +354,7 @@ void Cem::decide(const DecisionPoint& point, std::byte* action, Explanation* exp
             for (std::size_t k = 0; k < memory.kept_count; ++k)
                 end_by_noop(memory.kept[k], wanted, memory.horizon);
         }
-    } while (meter.has_room(lanes * depth + comparison(depth), compares ? seconds : 0));
+    } while (meter.has_room(played * depth + comparison(depth), compares ? seconds : 0));
 
     Choice chosen{order_.front(), values_[order_.front()], errors_[order_.front()],
                   static_cast<std::int64_t>(scenarios_)};

@@ -73,15 +73,8 @@ void Futures::step(const std::byte* actions) {
     take_step();
 }
 
-void Futures::step_values(const float* actions) {
-    const rddl_transition out = outputs();
-    require_done(simulator_,
-                 simulator_.step_values(batch_.get(), RDDL_FLOAT, actions, nullptr, &out));
-    take_step();
-}
-
 // Loops without branches, where no episode ends, no reward is bad and no limit is reached, which is
-// most of the time. False, with nothing done, where that is not so.
+// most of the time. False, with nothing added, where that is not so.
 bool Futures::take_plain_step() {
     if (made_ + 1 >= next_limit_) return false;
     const std::size_t lanes = returns_.size();

@@ -32,9 +32,8 @@ class Futures {
         limits_[k] = steps;
         next_limit_ = std::min(next_limit_, steps);
     }
-    // A record for each, or a row of values.
+    // A record for each.
     void step(const std::byte* actions);
-    void step_values(const float* actions);
 
     rddl_batch* batch() { return batch_.get(); }
     std::int64_t count() const { return static_cast<std::int64_t>(returns_.size()); }

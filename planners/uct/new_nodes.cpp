@@ -54,14 +54,19 @@ bool Uct::find_priors(const DecisionPoint& point, RandomStream& stream, BudgetMe
 // By logarithms of all actions, of which the node has some.
 void Uct::set_priors(Node& node, const float* logarithms) {
     float most = -std::numeric_limits<float>::infinity(), sum = 0;
-    for (const Edge& edge : tree().edges(node)) most = std::max(most, logarithms[edge.action]);
+    Edge* likeliest = nullptr;  // one alone, also where several are as likely
+    for (Edge& edge : tree().edges(node))
+        if (!likeliest || logarithms[edge.action] > most) {
+            likeliest = &edge;
+            most = logarithms[edge.action];
+        }
     for (Edge& edge : tree().edges(node)) {
         edge.prior = std::exp(logarithms[edge.action] - most);
         sum += edge.prior;
     }
     for (Edge& edge : tree().edges(node))
-        edge.prior = (1 - likeliest_share) * edge.prior / sum +
-                     (logarithms[edge.action] == most ? likeliest_share : 0);
+        edge.prior =
+            (1 - likeliest_share) * edge.prior / sum + (&edge == likeliest ? likeliest_share : 0);
     node.has_priors = true;
 }
 
@@ -82,7 +87,8 @@ bool Uct::find_preferred(const DecisionPoint& point, RandomStream& stream, Budge
             for (Edge& edge : tree().edges(node)) {
                 const bool is_its =
                     std::equal(record, record + action_size_, actions_.record(edge.action));
-                edge.prior = 0.5f / static_cast<float>(node.edge_count) + (is_its ? 0.5f : 0);
+                edge.prior = (1 - likeliest_share) / static_cast<float>(node.edge_count) +
+                             (is_its ? likeliest_share : 0);
                 node.has_priors |= is_its;
             }
         }

@@ -25,7 +25,7 @@ struct Node {
     double value = 0;
     std::int32_t best = -1;   // the edge, from 0, whose value is the node's; -1: no such edge
     bool is_open = false;     // its edges have values
-    bool has_priors = false;  // so have its edges
+    bool has_priors = false;  // its edges have priors
     bool is_locked = false;   // whatever is done, the state and the reward stay: the value is exact
 };
 

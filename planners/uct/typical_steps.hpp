@@ -32,7 +32,7 @@ class TypicalSteps {
     double reward(std::size_t state, std::size_t action) const;
     // The state after the step; NULL: the episode is over.
     const std::byte* next(std::size_t state, std::size_t action) const;
-    // Whether it is the state before the step.
+    // Whether the step leaves the state as it is.
     bool is_unchanged(std::size_t state, std::size_t action) const;
 
   private:

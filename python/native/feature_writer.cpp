@@ -33,7 +33,9 @@ void FeatureWriter::write_row(const float* values, float* features) const {
             return (number - column.middle) / column.half;
         };
         if (column.objects == 0) {
-            *features++ = scaled(value);
+            const bool has_limits = value >= column.lower && value <= column.upper;
+            const float feature = scaled(value);
+            *features++ = has_limits ? std::clamp(feature, -1.0f, 1.0f) : feature;
             continue;
         }
         std::fill_n(features, column.objects, scaled(0));
@@ -48,13 +50,13 @@ void add_feature_writer(nb::module_& module) {
         .def(
             "__init__",
             [](FeatureWriter* self,
-               const std::vector<std::tuple<std::int64_t, float, float>>& columns) {
+               const std::vector<std::tuple<std::int64_t, float, float, float, float>>& columns) {
                 std::vector<ColumnFeatures> all;
-                for (const auto& [objects, middle, half] : columns)
-                    all.push_back({objects, middle, half});
+                for (const auto& [objects, middle, half, lower, upper] : columns)
+                    all.push_back({objects, middle, half, lower, upper});
                 new (self) FeatureWriter(std::move(all));
             },
-            nb::arg("columns"), "(objects or 0, middle, half) of each column")
+            nb::arg("columns"), "(objects or 0, middle, half, lower, upper) of each column")
         .def_prop_ro("width", &FeatureWriter::width)
         .def("write", &FeatureWriter::write, nb::arg("values"), nb::arg("features"),
              nb::arg("rows"), "values: (rows, columns) float32; features: (rows, width) float32");

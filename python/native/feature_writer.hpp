@@ -10,10 +10,12 @@
 namespace rddlc::python {
 
 // The features of a column of observation values: (value - middle) / half, or for objects one
-// feature for each, which says in the same scale whether the value is that object.
+// feature for each, which says in the same scale whether the value is that object. Features of
+// numbers from lower to upper are from -1 to 1, whatever rounding does; lower > upper: they have no
+// limits.
 struct ColumnFeatures {
     std::int64_t objects;  // 0: the value is a number
-    float middle, half;
+    float middle, half, lower, upper;
 };
 
 class FeatureWriter {

@@ -402,9 +402,10 @@ class RDDLEnv(ProblemProperties, gymnasium.Env[Any, Any]):
     if not TYPE_CHECKING:  # type checkers report what is missing by themselves
 
         def __getattr__(self, name: str) -> Any:
-            text = f"'RDDLEnv' object has no attribute '{name}'"
-            if name in OF_PYRDDLGYM:
-                text += f": {OF_PYRDDLGYM[name]}, and rddlc.backend.make makes pyRDDLGym's own environment"
+            if name not in OF_PYRDDLGYM:
+                return object.__getattribute__(self, name)  # raises again, also what a property raised
+            text = f"'{type(self).__name__}' object has no attribute '{name}': {OF_PYRDDLGYM[name]}, and "
+            text += "rddlc.backend.make makes pyRDDLGym's own environment"
             raise AttributeError(text, name=name, obj=self)
 
     # ---- copies

@@ -121,6 +121,25 @@ class FlatObservations(unittest.TestCase):
         self.assertEqual(env.reset(seed=1)[0], [-1])
         self.assertEqual(env.step({"pour": 1.0})[0], [-0.5])
 
+    def test_normalized_values_at_bounds_lie_in_the_space(self) -> None:
+        text = """
+            domain tank {
+                pvariables {
+                    height : { state-fluent, real, default = 0.3 };
+                    wait : { action-fluent, bool, default = false };
+                };
+                cpfs { height' = height; };
+                reward = 0;
+                state-invariants { height >= 0.1; height <= 0.3; };
+            }
+            non-fluents nothing { domain = tank; }
+            instance tank_1 {
+                domain = tank; non-fluents = nothing; max-nondef-actions = 1; horizon = 5; discount = 1.0;
+            }
+        """
+        env = rddlc.make(problem_of_text(text), observations="flat", normalize=True)
+        self.assertIn(env.reset(seed=1)[0], env.observation_space)
+
 
 class DictionariesForLearners(unittest.TestCase):
     def test_numbers_are_float32_rows_and_ints_begin_at_zero(self) -> None:

@@ -155,24 +155,51 @@ struct PpoPriors {
     // Writes the row of one environment; returns the place of the next one.
     float* write_row(const float* logits, float* row) {
         const ActionSpace& space = model->actions;
-        if (space.max_sub_actions > 0) find_logarithms(0, space.logit_count, logits);
+        if (space.max_sub_actions > 0) find_sub_actions(logits);
         for (const CategoryHead& head : space.categories)
             find_logarithms(head.first_logit, head.count, logits);
         const auto width = static_cast<std::size_t>(space.index_count());
         for (std::size_t a = 0; a * width < indices.size(); ++a) {
             const std::int32_t* const index = indices.data() + a * width;
-            float sum = 0;
-            // Sub-actions in any order have the same sum. The choice to stop, 0, is the last one.
-            for (int p = 0; p < space.max_sub_actions; ++p) {
-                sum += logarithms[static_cast<std::size_t>(index[p])];
-                if (index[p] == 0) break;
-            }
+            float sum = space.max_sub_actions > 0 ? of_sub_actions(index) : 0;
             for (std::size_t h = 0; h < space.categories.size(); ++h)
                 sum += logarithms[static_cast<std::size_t>(space.categories[h].first_logit +
                                                            index[h])];
             *row++ = sum;
         }
         return row;
+    }
+
+    void find_sub_actions(const float* logits) {
+        const ActionSpace& space = model->actions;
+        find_logarithms(0, space.logit_count, logits);
+        shares.assign(static_cast<std::size_t>(space.column_count), 0.0f);
+        for (std::size_t c = 1; c < space.choices.size(); ++c)
+            shares[static_cast<std::size_t>(space.choices[c].column)] += std::exp(logarithms[c]);
+    }
+
+    // The likeliest sub-action first, as the policy takes them. Each leaves out the choices of its
+    // column for those after it: else to stop at once would be likelier than any sub-action. The
+    // choice to stop, 0, is the last one.
+    float of_sub_actions(const std::int32_t* index) {
+        const ActionSpace& space = model->actions;
+        const std::int32_t* const end = index + space.max_sub_actions;
+        order.assign(index, std::find(index, end, 0));
+        std::ranges::sort(order, [&](std::int32_t a, std::int32_t b) {
+            return logarithms[static_cast<std::size_t>(a)] >
+                   logarithms[static_cast<std::size_t>(b)];
+        });
+        if (order.size() < static_cast<std::size_t>(space.max_sub_actions)) order.push_back(0);
+        const float stop = std::exp(logarithms.front());
+        float sum = 0, left = 1;
+        for (const std::int32_t choice : order) {
+            const auto c = static_cast<std::size_t>(choice);
+            sum += logarithms[c] - std::log(left);
+            if (c > 0)  // `left` has an error, but to stop is always possible
+                left = std::max({left - shares[static_cast<std::size_t>(space.choices[c].column)],
+                                 stop, 1e-30f});
+        }
+        return sum;
     }
 
     // Logarithms of the probabilities of a category.
@@ -187,7 +214,9 @@ struct PpoPriors {
     const rddl_simulator& simulator;
     std::shared_ptr<const PpoModel> model;
     std::vector<std::int32_t> indices;  // rows of index_count
+    std::vector<std::int32_t> order;    // sub-actions, the likeliest first
     std::vector<float> observations, features, inputs, activations, logarithms;
+    std::vector<float> shares;  // the probability that a sub-action changes a column
 };
 
 // Only a policy that sees all of a state in its features knows them from a state alone.

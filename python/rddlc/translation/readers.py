@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections import OrderedDict
 from typing import Any
 
@@ -204,7 +205,7 @@ class FlatReader:
 
 class _ColumnFeatures:
     """The features of a column, of which `limits` are the bounds: (value - middle) / half, also of the 0 and 1
-    that say whether it is an object."""
+    that say whether it is an object. Those of values `inside` are from -1 to 1."""
 
     def __init__(self, column: Column, normalize: bool) -> None:
         self.objects = column.fluent.objects or ()
@@ -212,11 +213,13 @@ class _ColumnFeatures:
         lower, upper = (0.0, 1.0) if self.objects else column.bounds
         self.middle, self.half = 0.0, 1.0
         middle, half = lower / 2 + upper / 2, upper / 2 - lower / 2
-        if normalize and LEAST_SINGLE <= half <= MOST_SINGLE:  # not if a bound is infinite
-            self.middle, self.half = middle, half
+        self.inside = math.inf, -math.inf
+        # Not if a bound is infinite.
+        if normalize and LEAST_SINGLE <= half <= MOST_SINGLE and abs(middle) <= MOST_SINGLE:
+            self.middle, self.half, self.inside = middle, half, (lower, upper)
             lower, upper = -1.0, 1.0
         self.limits = [(lower, upper)] * len(self.names)
 
     @property
-    def native(self) -> tuple[int, float, float]:
-        return len(self.objects), self.middle, self.half
+    def native(self) -> tuple[int, float, float, float, float]:
+        return len(self.objects), self.middle, self.half, *self.inside
