@@ -65,7 +65,7 @@ TEST(Objects, DrawMediansInAStreamWithoutLuck) {
         };
         const double level = at_i(from.level);
         EXPECT_EQ(at_i(drawn), level > 0.5) << level;
-        EXPECT_EQ(at_i(normal), level);
+        EXPECT_NEAR(at_i(normal), level, 1e-14);  // 1/2 is rounded up before a quantile
         EXPECT_EQ(sample::bernoulli(context, {0, i}, level), level > 0.5);
         EXPECT_EQ(sample::bernoulli(packs, {0, i}, level).bits, level > 0.5 ? 0xFFFF : 0);
     }
