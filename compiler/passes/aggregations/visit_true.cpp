@@ -108,8 +108,8 @@ class Visiting {
             if (!is_constant(factor, pairs)) pairs.factors.push_back(factor);
         if (pairs.relation.tuples.empty()) return std::nullopt;
         // Factors that read few bytes decide first.
-        std::ranges::stable_partition(pairs.factors,
-                                      [&](ir::NodeId each) { return !reads_large_table(each); });
+        std::stable_partition(pairs.factors.begin(), pairs.factors.end(),
+                              [&](ir::NodeId each) { return !reads_large_table(each); });
         return pairs;
     }
 
