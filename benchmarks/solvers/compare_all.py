@@ -21,10 +21,10 @@ import sys
 import tempfile
 import time
 from functools import partial
-from multiprocessing import Pool
 from pathlib import Path
 
-ROOT = Path(__file__).resolve().parents[2]
+from sweep import add_options, add_results, chosen_instances, exceeds, interval_text, read_results
+
 LEARNERS = ("ppo", "cgp")
 PLANNERS = {"cem": "plan:cem", "uct": "plan:uct", "rollout": "plan:rollout,policy=random", "gradient": "plan:gradient"}
 METHODS = ("noop", "random", *PLANNERS, *LEARNERS, "optimum", "prost")
@@ -34,10 +34,10 @@ class Failure(Exception):
     """A method cannot be had for a problem; its text says why."""
 
 
-def run(words, seconds):
+def run(words, seconds, folder=None):
     """What a program prints, and its seconds of processor time, children included."""
     with tempfile.TemporaryFile("w+") as out, tempfile.TemporaryFile("w+") as err:
-        process = subprocess.Popen([str(word) for word in words], stdout=out, stderr=err, start_new_session=True)
+        process = subprocess.Popen([str(word) for word in words], stdout=out, stderr=err, start_new_session=True, cwd=folder)
         end = time.monotonic() + seconds
         pid = 0
         try:
@@ -104,12 +104,10 @@ def prost(problem, details, arguments):
                         raise Failure(said.strip())
                     time.sleep(0.05)
                 port = said.rsplit(":", 1)[1].split()[0]
-                os.chdir(work)
                 _, used = run([arguments.prost / "builds/release/search/search", instance_name, "-p", port,
-                               "[PROST -s 1 -tm UNI -se [IPC2014]]"], 2 * seconds + 300)
+                               "[PROST -s 1 -tm UNI -se [IPC2014]]"], 2 * seconds + 300, folder=work)
                 server.wait(10)
             finally:
-                os.chdir(ROOT)
                 server.kill()
         found = re.search(r"return (-?[\d.e+]+)(?: ± ([\d.e+]+))?", (work / "serve").read_text())
         if not found:
@@ -140,33 +138,16 @@ def result_or_failure(arguments, job):
 
 def jobs_of(problems, done, arguments):
     """What is to be done, method after method, so that every column grows from the top."""
-    chosen = [problem for problem in problems
-              if (not arguments.context or problem["context"] in arguments.context)
-              and (not arguments.only or arguments.only in problem["name"])]
     for method in arguments.methods:
-        for problem in chosen:
-            instances = [instance for instance in problem["instances"] if instance not in arguments.without]
-            for instance in instances[:arguments.instances]:
-                if (problem["name"], instance, method) not in done:
-                    yield method, problem["name"], instance, problem
+        for problem, instance in chosen_instances(problems, arguments):
+            if (problem["name"], instance, method) not in done:
+                yield method, problem["name"], instance, problem
 
 
 def cell(result):
     if result is None:
         return ""
-    if "failure" in result:
-        return "-"
-    if not isinstance(result["mean"], (int, float)):
-        return str(result["mean"])
-    width = result["half_width"]
-    return f"{result['mean']:.4g} ± {width:.2g}" if width else f"{result['mean']:.4g}"
-
-
-def is_above(result, floors):
-    """Whether a return exceeds all of these by more than chance: half of the width of both intervals together."""
-    return all(result["mean"] - floor["mean"] > max(1e-3 * abs(floor["mean"]),
-                                                    (result["half_width"] ** 2 + floor["half_width"] ** 2) ** 0.5 / 2)
-               for floor in floors)
+    return "-" if "failure" in result else interval_text(result["mean"], result["half_width"])
 
 
 def has_value(result):
@@ -187,8 +168,9 @@ def table(results):
                  for name in methods if name in PLANNERS]
         lines.append(f"| {problem} | {instance} | " + " | ".join(cell(row.get(name)) for name in methods) +
                      " | " + ", ".join(times) + " |")
-        floors = [row[name] for name in ("noop", "random") if has_value(row.get(name))]
-        good = [name for name in above if len(floors) == 2 and has_value(row.get(name)) and is_above(row[name], floors)]
+        floors = [(row[name]["mean"], row[name]["half_width"]) for name in ("noop", "random") if has_value(row.get(name))]
+        good = [name for name in above if len(floors) == 2 and has_value(row.get(name))
+                and exceeds(row[name]["mean"], row[name]["half_width"], floors)]
         best += bool(good)
         for name in good:
             above[name] += 1
@@ -199,25 +181,16 @@ def table(results):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
-    parser.add_argument("--rddl", default=ROOT / "build/bin/rddl")
-    parser.add_argument("--out", type=Path, required=True)
+    add_options(parser)
     parser.add_argument("--methods", nargs="*", default=METHODS[:-1], choices=METHODS)
-    parser.add_argument("--context", nargs="*", help="only problems of these contexts, such as ippc2023")
-    parser.add_argument("--only", help="only problems whose names contain this")
-    parser.add_argument("--instances", type=int, default=1, help="so many of each problem")
-    parser.add_argument("--without", default=[], nargs="*", help="instances that are left out: 0 is not one of the competition's")
     parser.add_argument("--episodes", type=int, default=10)
     parser.add_argument("--steps", type=int, default=20000, help="simulated steps of a planner's decision")
     parser.add_argument("--seconds", type=float, default=60, help="a learner's time")
     parser.add_argument("--limit", type=float, default=300, help="seconds after which a method is given up")
     parser.add_argument("--prost", type=Path, help="folder of PROST, after its build.py")
     parser.add_argument("--prost-seconds", type=float, default=0.05)
-    parser.add_argument("--seed", type=int, default=0)
-    parser.add_argument("--jobs", type=int, default=1, help="problems at the same time")
-    parser.add_argument("--table", action="store_true", help="print what is there")
     arguments = parser.parse_args()
-    lines = arguments.out.read_text().splitlines() if arguments.out.exists() else []
-    results = list(map(json.loads, lines))
+    results = read_results(arguments)
     if arguments.table:
         print(table(results))
         return 0
@@ -225,13 +198,7 @@ def main():
         parser.error("--methods prost needs --prost FOLDER")
     done = {(result["problem"], result["instance"], result["method"]) for result in results}
     problems = json.loads(run([arguments.rddl, "list", "--json"], 600)[0])
-    # Processes, not threads, which Ctrl-C would wait for.
-    with Pool(arguments.jobs) as pool:
-        for result in pool.imap_unordered(partial(result_or_failure, arguments), jobs_of(problems, done, arguments)):
-            line = json.dumps(result)
-            with arguments.out.open("a") as file:
-                file.write(line + "\n")
-            print(line, flush=True)
+    add_results(partial(result_or_failure, arguments), jobs_of(problems, done, arguments), arguments)
     return 0
 
 

@@ -17,10 +17,9 @@ import sys
 import tempfile
 import time
 from functools import partial
-from multiprocessing import Pool
 from pathlib import Path
 
-ROOT = Path(__file__).resolve().parents[2]
+from sweep import add_options, add_results, chosen_instances, exceeds, interval_text, read_results
 
 
 def run(words, seconds):
@@ -63,18 +62,12 @@ def is_better(learned, floors):
     that is equal to no-op has learned nothing."""
     if learned is None or not isinstance(learned[0], (int, float)):
         return False
-    return all(learned[0] - mean > max(1e-3 * abs(mean), ((learned[1] or 0) ** 2 + (half_width or 0) ** 2) ** 0.5 / 2)
-               for mean, half_width, _ in floors)
+    return exceeds(learned[0], learned[1], [(mean, half_width) for mean, half_width, _ in floors])
 
 
 def table(results):
     def cell(result, key):
-        if key not in result:
-            return "-"
-        mean, half_width, _ = result[key]
-        if not isinstance(mean, (int, float)):
-            return str(mean)
-        return f"{mean:.4g} ± {half_width:.2g}" if half_width else f"{mean:.4g}"
+        return interval_text(*result[key][:2]) if key in result else "-"
 
     def seconds(result):
         return " and ".join(f"{result[key]:.0f}" if key in result else "-" for key in ("ppo_seconds", "cgp_seconds"))
@@ -99,15 +92,9 @@ def table(results):
 
 def jobs_of(problems, done, arguments):
     """The instances that are to be done, as (problem, instance)."""
-    for problem in problems:
-        if arguments.context and problem["context"] not in arguments.context:
-            continue
-        if arguments.only and arguments.only not in problem["name"]:
-            continue
-        instances = [instance for instance in problem["instances"] if instance not in arguments.without]
-        for instance in instances[:arguments.instances]:
-            if (problem["name"], instance) not in done:
-                yield problem["name"], instance
+    for problem, instance in chosen_instances(problems, arguments):
+        if (problem["name"], instance) not in done:
+            yield problem["name"], instance
 
 
 def solve_or_failure(arguments, job):
@@ -120,34 +107,19 @@ def solve_or_failure(arguments, job):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
-    parser.add_argument("--rddl", default=ROOT / "build/bin/rddl")
-    parser.add_argument("--out", type=Path, required=True)
-    parser.add_argument("--context", nargs="*", help="only problems of these contexts, such as ippc2023")
-    parser.add_argument("--only", help="only problems whose names contain this")
-    parser.add_argument("--instances", type=int, default=1, help="so many of each problem")
-    parser.add_argument("--without", default=[], nargs="*", help="instances that are left out: 0 is not one of the competition's")
+    add_options(parser)
     parser.add_argument("--seconds", type=float, default=60)
     parser.add_argument("--episodes", type=int, default=50)
     parser.add_argument("--memory-limit", default="8G", help="what a learner may take")
-    parser.add_argument("--seed", type=int, default=0)
-    parser.add_argument("--jobs", type=int, default=1, help="problems at the same time")
     parser.add_argument("--long", action="store_true", help="PPO uses all of the time, with a constant plan")
-    parser.add_argument("--table", action="store_true", help="print what is there")
     arguments = parser.parse_args()
-    lines = arguments.out.read_text().splitlines() if arguments.out.exists() else []
-    results = sorted(map(json.loads, lines), key=lambda result: (result["problem"], int(result["instance"])))
+    results = sorted(read_results(arguments), key=lambda result: (result["problem"], int(result["instance"])))
     if arguments.table:
         print(table(results))
         return 0
     done = {(result["problem"], result["instance"]) for result in results}
     problems = json.loads(run([arguments.rddl, "list", "--json"], 600))
-    # Processes, not threads, which Ctrl-C would wait for.
-    with Pool(arguments.jobs) as pool:
-        for result in pool.imap_unordered(partial(solve_or_failure, arguments), jobs_of(problems, done, arguments)):
-            line = json.dumps(result)
-            with arguments.out.open("a") as file:
-                file.write(line + "\n")
-            print(line, flush=True)
+    add_results(partial(solve_or_failure, arguments), jobs_of(problems, done, arguments), arguments)
     return 0
 
 
