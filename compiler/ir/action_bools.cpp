@@ -1,5 +1,6 @@
 #include "ir/action_bools.hpp"
 
+#include "ir/analysis.hpp"
 #include "support/match.hpp"
 
 #include <algorithm>
@@ -10,11 +11,6 @@ namespace {
 
 // Bools of one table: below that, a test of all takes an instruction or two.
 constexpr std::int64_t many_bools = 128;
-
-bool is_action_bool(const Program& program, BufferId id) {
-    const Buffer& buffer = program[id];
-    return buffer.storage == Storage::Action && buffer.scalar == Scalar::Bool;
-}
 
 // Then the element stands in brackets in the text, not behind a function that copies it.
 bool is_of_objects(const Program& program, NodeId index) {
@@ -34,7 +30,7 @@ bool is_of_objects(const Program& program, NodeId index) {
 }
 
 bool is_read_by_bytes(const Program& program, const Load& load) {
-    if (!is_action_bool(program, load.buffer)) return true;
+    if (!is_action_bools(program[load.buffer])) return true;
     const auto is_object = [&](NodeId index) {
         return is_of_objects(program, index);
     };
@@ -43,15 +39,14 @@ bool is_read_by_bytes(const Program& program, const Load& load) {
            (load.gather == Gather::Adjacent && load.indices.size() == 1);
 }
 
-bool is_passed_whole(const Program& program, const Block& block) {
-    return std::ranges::any_of(block, [&](const Statement& statement) {
-        if (const auto* loop = std::get_if<Loop>(&statement.form))
-            return is_passed_whole(program, loop->body);
-        const auto* call = std::get_if<Call>(&statement.form);
-        return call && std::ranges::any_of(call->inputs, [&](const TableView& input) {
-                   return is_action_bool(program, input.buffer);
-               });
-    });
+bool passes_whole_tables(const Program& program) {
+    bool passes = false;
+    for (const Block* block : blocks_of(program))
+        for_each_statement<Call>(*block, [&](const Call& call) {
+            for (const TableView& input : call.inputs)
+                passes = passes || is_action_bools(program[input.buffer]);
+        });
+    return passes;
 }
 
 bool reads_by_bytes(const Program& program) {
@@ -59,20 +54,18 @@ bool reads_by_bytes(const Program& program) {
         const auto* load = std::get_if<Load>(&node.form);
         return !load || is_read_by_bytes(program, *load);
     };
-    const auto passes = [&](const auto& part) {
-        return is_passed_whole(program, part.body);
-    };
-    return std::ranges::all_of(program.nodes, reads) &&
-           std::ranges::none_of(program.step, passes) &&
-           std::ranges::none_of(program.preconditions, passes) && !passes(program.reward);
+    return std::ranges::all_of(program.nodes, reads) && !passes_whole_tables(program);
 }
 
 }  // namespace
 
+bool is_action_bools(const Buffer& buffer) {
+    return buffer.storage == Storage::Action && buffer.scalar == Scalar::Bool;
+}
+
 bool tests_action_bools(const Program& program) {
-    const bool has_many = std::ranges::any_of(program.buffers, [&](const Buffer& buffer) {
-        return buffer.storage == Storage::Action && buffer.scalar == Scalar::Bool &&
-               buffer.count() >= many_bools;
+    const bool has_many = std::ranges::any_of(program.buffers, [](const Buffer& buffer) {
+        return is_action_bools(buffer) && buffer.count() >= many_bools;
     });
     return has_many && !program.policy && reads_by_bytes(program) &&
            (!program.moderate || reads_by_bytes(**program.moderate));

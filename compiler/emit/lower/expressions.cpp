@@ -5,6 +5,7 @@
 #include "emit/cpp/print.hpp"
 #include "emit/lower/operators.hpp"
 #include "emit/lower/tables.hpp"
+#include "ir/action_bools.hpp"
 #include "ir/call.hpp"
 #include "ir/row_of_bools.hpp"
 #include "support/match.hpp"
@@ -377,9 +378,7 @@ tree::Statement Expressions::external_call(const ir::Call& call) {
 
 // "rddl::is_true(action.p[x])" where bytes are tested one by one.
 Expression Expressions::tested(ir::BufferId buffer, Expression element) const {
-    const ir::Buffer& of = unit_.program[buffer];
-    const bool is_byte = of.storage == ir::Storage::Action && of.scalar == ir::Scalar::Bool;
-    if (!is_byte || !unit_.tests_action_bools) return element;
+    if (!unit_.tests_action_bools || !ir::is_action_bools(unit_.program[buffer])) return element;
     return tree::call("rddl::is_true", list(std::move(element)));
 }
 

@@ -102,7 +102,8 @@ class Expressions {
     // The same, but the names stay taken.
     void forget(Mark mark);
 
-    tree::Expression table(ir::BufferId buffer) { return record(buffer); }
+    // A table whole: its name, or the member of the record that holds it.
+    tree::Expression record(ir::BufferId buffer);
 
     Uses& uses() { return uses_; }
     const Unit& unit() const { return unit_; }
@@ -148,7 +149,6 @@ class Expressions {
     tree::Expressions all_of(std::span<const ir::NodeId> operands);
     // The context and the place of a draw or a fault.
     tree::Expressions place(const ir::Place& place);
-    tree::Expression record(ir::BufferId buffer);
     tree::Expression elements(tree::Expression table, std::span<const ir::NodeId> indices);
     tree::Expression view(const ir::TableView& view, bool is_written);
     tree::Statement external_call(const ir::Call& call);

@@ -169,8 +169,8 @@ void FunctionBody::statement(const ir::Scatter& scatter) {
     const auto before = expressions_.mark();
     const auto& few = std::get<ir::Load>(program()[scatter.condition].form);
     tree::Expressions arguments = {expressions_.target(scatter.target, {}),
-                                   expressions_.table(few.buffer),
-                                   expressions_.table(scatter.rows)};
+                                   expressions_.record(few.buffer),
+                                   expressions_.record(scatter.rows)};
     const auto index = [&](ir::VariableId variable) {
         return tree::Expression{tree::Declared{"rddl::Index", expressions_.enter(variable)}};
     };

@@ -5,6 +5,7 @@
 #include "ir/reduction_nest.hpp"
 #include "ir/rewrite.hpp"
 #include "passes/aggregations/entry_tables.hpp"
+#include "passes/analyses/bool_words.hpp"
 #include "passes/analyses/sparsity_pattern.hpp"
 
 #include <algorithm>
@@ -21,8 +22,6 @@ namespace {
 
 // Initially, at most one of so many is true.
 constexpr std::int64_t least_per_true = 16;
-// A table with more elements is large. Loops over words of bools read smaller ones.
-constexpr std::int64_t most_in_words = 256;
 
 using Factors = std::vector<ir::NodeId>;
 
@@ -131,10 +130,11 @@ class Visiting {
         return count > 0 && count * least_per_true <= std::ssize(values);
     }
 
+    // A table that loops over many bools do not look up.
     bool reads_large_table(ir::NodeId id) const {
         const auto* load = std::get_if<ir::Load>(&program_[id].form);
         if (load && program_[load->buffer].storage != ir::Storage::Constant &&
-            program_[load->buffer].count() > most_in_words)
+            program_[load->buffer].count() > most_looked_up_bools)
             return true;
         return std::ranges::any_of(ir::operands_of(program_[id]),
                                    [&](ir::NodeId operand) { return reads_large_table(operand); });
