@@ -46,32 +46,21 @@ void PlanActions::write(const Population& population, std::size_t step,
     if (!writes_all_) std::memcpy(to, blank_.data(), count_ * records_.record_size());
     if (space_.max_sub_actions > 0) return write_sub_actions(population, step, to);
     for (std::size_t r = 0; r < space_.reals.size(); ++r)
-        write_real(space_.reals[r], population.numbers(step, r), to);
+        write_real(space_.reals[r], numbers_of(population, step, r), to);
     for (std::size_t h = 0; h < space_.categories.size(); ++h)
         write_category(space_.categories[h], population.indices(step, h), to);
 }
 
-namespace {
-
-// Writes a value of an action, in the type that records have there.
-inline void set(const solvers::ActionRecords::Entry& at, double value, std::byte* record) {
-    if (at.scalar == RDDL_BOOL) {
-        record[at.offset] = static_cast<std::byte>(value > 0.5);
-    } else if (at.scalar == RDDL_INT) {
-        const auto number = static_cast<std::int64_t>(value);
-        std::memcpy(record + at.offset, &number, sizeof number);
-    } else {
-        std::memcpy(record + at.offset, &value, sizeof value);
-    }
+// The numbers of the plans that are written.
+const float* PlanActions::numbers_of(const Population& population, std::size_t step,
+                                     std::size_t real) {
+    const float* const all = population.numbers(step, real);
+    if (plans_.empty()) return all;
+    for (std::size_t k = 0; k < count_; ++k) numbers_[k] = all[plans_[k]];
+    return numbers_.data();
 }
 
-}  // namespace
-
 void PlanActions::write_real(const RealHead& head, const float* numbers, std::byte* to) {
-    if (!plans_.empty()) {
-        for (std::size_t k = 0; k < count_; ++k) numbers_[k] = numbers[plans_[k]];
-        numbers = numbers_.data();
-    }
     loops_.real_values(scale_of(head, space_, records_), numbers, count_, values_.data());
     const auto at = records_.entry(head.column);
     const std::size_t size = records_.record_size(), count = count_;
@@ -80,7 +69,7 @@ void PlanActions::write_real(const RealHead& head, const float* numbers, std::by
         for (std::size_t k = 0; k < count; ++k)
             std::memcpy(to + k * size + at.offset, values + k, sizeof values[k]);
     else
-        for (std::size_t k = 0; k < count; ++k) set(at, values[k], to + k * size);
+        for (std::size_t k = 0; k < count; ++k) at.set(values[k], to + k * size);
 }
 
 void PlanActions::write_category(const CategoryHead& head, const std::int32_t* indices,
@@ -89,22 +78,19 @@ void PlanActions::write_category(const CategoryHead& head, const std::int32_t* i
     for (std::size_t k = 0; k < count_; ++k) {
         const std::int64_t value = head.first_value + indices[plan_at(k)];
         if (head.group.empty()) {
-            set(records_.entry(head.column), static_cast<double>(value), to + k * size);
+            records_.entry(head.column).set(static_cast<double>(value), to + k * size);
         } else if (value > 0) {
             const int column = head.group[static_cast<std::size_t>(value - 1)];
-            set(records_.entry(column), 1 - records_.default_value(column), to + k * size);
+            records_.entry(column).set(1 - records_.default_value(column), to + k * size);
         }
     }
 }
 
 void PlanActions::write_sub_actions(const Population& population, std::size_t step, std::byte* to) {
     const std::size_t size = records_.record_size(), row = blank_.size() / size;
-    for (std::size_t r = 0; r < space_.reals.size(); ++r) {
-        for (std::size_t k = 0; k < count_; ++k)
-            numbers_[k] = population.numbers(step, r)[plan_at(k)];
-        loops_.real_values(scale_of(space_.reals[r], space_, records_), numbers_.data(), count_,
-                           values_.data() + r * row);
-    }
+    for (std::size_t r = 0; r < space_.reals.size(); ++r)
+        loops_.real_values(scale_of(space_.reals[r], space_, records_),
+                           numbers_of(population, step, r), count_, values_.data() + r * row);
     const auto positions = static_cast<std::size_t>(space_.max_sub_actions);
     for (std::size_t p = 0; p < positions; ++p) {
         const std::int32_t* const indices = population.indices(step, p);
@@ -117,7 +103,7 @@ void PlanActions::write_sub_actions(const Population& population, std::size_t st
             const double value = choice.real >= 0
                                      ? values_[static_cast<std::size_t>(choice.real) * row + k]
                                      : static_cast<double>(choice.value);
-            set(records_.entry(choice.column), value, to + k * size);
+            records_.entry(choice.column).set(value, to + k * size);
         }
         if (!any) return;
     }

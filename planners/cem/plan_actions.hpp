@@ -23,6 +23,7 @@ class PlanActions {
                std::byte* to);
 
   private:
+    const float* numbers_of(const Population& population, std::size_t step, std::size_t real);
     void write_real(const solvers::RealHead& head, const float* numbers, std::byte* to);
     void write_category(const solvers::CategoryHead& head, const std::int32_t* indices,
                         std::byte* to);

@@ -158,15 +158,8 @@ void ActionRecords::write(const float* values, std::byte* record) const {
     for (std::size_t c = 0; c < entries_.size(); ++c) {
         if (values[c] == defaults_[c]) continue;
         const Entry& entry = entries_[c];
-        if (entry.scalar == RDDL_BOOL) {
-            record[entry.offset] = static_cast<std::byte>(values[c] > 0.5f);
-        } else if (entry.scalar == RDDL_INT) {
-            const auto value = static_cast<std::int64_t>(std::nearbyint(values[c]));
-            std::memcpy(record + entry.offset, &value, sizeof value);
-        } else {
-            const auto value = static_cast<double>(values[c]);
-            std::memcpy(record + entry.offset, &value, sizeof value);
-        }
+        const auto value = static_cast<double>(values[c]);
+        entry.set(entry.scalar == RDDL_INT ? std::nearbyint(value) : value, record);
     }
 }
 

@@ -18,6 +18,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <optional>
 #include <string>
 #include <vector>
@@ -123,6 +124,9 @@ class ActionRecords {
     struct Entry {
         std::size_t offset;
         rddl_scalar scalar;
+        // Writes a value in the type that it has there: of an int a whole number, and a number
+        // above 0.5 is true.
+        void set(double value, std::byte* record) const;
     };
     const Entry& entry(int column) const { return entries_[static_cast<std::size_t>(column)]; }
     double default_value(int column) const;
@@ -134,5 +138,16 @@ class ActionRecords {
     std::vector<float> defaults_;   // as a row
     std::size_t record_size_;
 };
+
+inline void ActionRecords::Entry::set(double value, std::byte* record) const {
+    if (scalar == RDDL_BOOL) {
+        record[offset] = static_cast<std::byte>(value > 0.5);
+    } else if (scalar == RDDL_INT) {
+        const auto number = static_cast<std::int64_t>(value);
+        std::memcpy(record + offset, &number, sizeof number);
+    } else {
+        std::memcpy(record + offset, &value, sizeof value);
+    }
+}
 
 }  // namespace rddlc::solvers
