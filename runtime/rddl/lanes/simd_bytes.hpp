@@ -11,26 +11,7 @@ namespace rddl::simd::inline RDDL_SIMD_LEVEL {
 
 // ---------------------------------------------------------------------------- bytes by place
 
-#ifdef __AVX512VBMI__
-namespace detail {
-
-// By the lower 7 bits of their places, those that are there.
-template <int size>
-[[gnu::always_inline]] inline std::uint64_t bits_of_chosen_bytes(const char* table,
-                                                                 std::uint64_t there,
-                                                                 __m512i places) {
-    const __m512i first = load_many_parts(table, size < 64 ? size : 64);
-    __m512i chosen;
-    if constexpr (size <= 64)
-        chosen = _mm512_maskz_permutexvar_epi8(there, places, first);
-    else
-        chosen = _mm512_maskz_permutex2var_epi8(there, first, places,
-                                                load_many_parts(table + 64, size - 64));
-    return _mm512_test_epi8_mask(chosen, chosen);
-}
-
-}  // namespace detail
-#elif defined(__AVX2__)
+#if defined(__AVX2__) && !defined(__AVX512VBMI__)
 namespace detail {
 
 // The bytes of a table of `size` <= 128 that have these places: 16 of the table at a time, from
@@ -169,16 +150,10 @@ template <std::int64_t size, class Place>
     std::uint64_t bits = 0;
     int k = 0;
 #ifdef __AVX512VBMI__
-    if constexpr (sizeof(Place) == 1) {
+    if constexpr (sizeof(Place) == 1 && size <= most_chosen_bytes) {
         const std::uint64_t there = ~std::uint64_t{0} >> (64 - count);
-        const __m512i numbers = _mm512_maskz_loadu_epi8(there, places);
-        const std::uint64_t in_first =
-            detail::bits_of_chosen_bytes<(size < 128 ? size : 128)>(bytes, there, numbers);
-        if constexpr (size <= 128) return in_first;
-        const std::uint64_t in_second = detail::bits_of_chosen_bytes<(size > 128 ? size - 128 : 1)>(
-            bytes + 128, there, numbers);
-        const std::uint64_t is_second = _mm512_movepi8_mask(numbers);
-        return (in_first & ~is_second) | (in_second & is_second);
+        return nonzero_bytes(chosen_bytes<size>(table, _mm512_maskz_loadu_epi8(there, places))) &
+               there;
     }
 #elif defined(__AVX2__)
     if constexpr (sizeof(Place) == 1 && size <= 128) {
