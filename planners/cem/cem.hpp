@@ -14,6 +14,7 @@
 #include "planners/simulation/budget.hpp"
 #include "planners/simulation/futures.hpp"
 #include "planners/simulation/random_stream.hpp"
+#include "planners/simulation/value_tail.hpp"
 #include "solvers/spaces/action_repair.hpp"
 #include "solvers/spaces/actions.hpp"
 
@@ -87,6 +88,7 @@ class Cem : public Planner {
     solvers::RepairBuffers repair_;
     std::optional<BasePolicy> base_, recorder_;  // of all lanes; of one environment
     std::optional<Futures> recording_;
+    std::optional<ValueTail> tail_;  // what follows plans, where it is by values
     EpisodeMemories<Memory> memories_;
     std::vector<float> default_numbers_;
     std::vector<std::int32_t> default_indices_;
