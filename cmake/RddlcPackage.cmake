@@ -13,7 +13,7 @@ if(TARGET rddlc)
 endif()
 # Solvers as libraries and as programs, and planners (component "solvers").
 if(TARGET rddl_ppo)
-  set(solver_targets rddl_solvers rddl_ppo rddl_cgp rddl_planners rddl_solver_program rddl_ppo_program rddl_cgp_program)
+  set(solver_targets rddl_solvers rddl_ppo rddl_cgp rddl_drp rddl_planners rddl_solver_program rddl_ppo_program rddl_cgp_program)
   foreach(target IN LISTS solver_targets)
     string(REGEX REPLACE "^rddl_" "" name ${target})
     set_target_properties(${target} PROPERTIES EXPORT_NAME ${name})
