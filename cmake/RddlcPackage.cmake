@@ -19,7 +19,7 @@ if(TARGET rddl_ppo)
     set_target_properties(${target} PROPERTIES EXPORT_NAME ${name})
   endforeach()
   install(TARGETS ${solver_targets} rddlc_support rddlc_options EXPORT rddlcSolverTargets COMPONENT solvers)
-  foreach(folder batches policies evaluation spaces action_distribution gradients files options ranks training network ppo cgp program)
+  foreach(folder batches policies evaluation spaces action_distribution gradients files options ranks training network ppo cgp drp program)
     install(DIRECTORY ${PROJECT_SOURCE_DIR}/solvers/${folder} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/solvers
             COMPONENT solvers FILES_MATCHING PATTERN "*.hpp")
   endforeach()

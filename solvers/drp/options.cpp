@@ -17,7 +17,7 @@ OptionTable<O> make_table() {
             [](auto& o) -> auto& { return o.steps; }, 1, 1'000'000'000'000'000),
         number_option<O, int>(
             {"--episodes", "episodes", "N",
-             "Episodes of a gradient, a multiple of 8 (32; 8 where nothing is drawn at random)"},
+             "Episodes of a gradient, rounded up to a multiple of 8 (8)"},
             [](auto& o) -> auto& { return o.episodes; }, 1, 1 << 20),
         number_option<O, std::int64_t>(
             {"--horizon", "horizon", "H", "Steps of an episode (the instance's)"},

@@ -16,7 +16,7 @@ namespace rddlc::solvers {
 
 struct DrpOptions {
     std::int64_t steps = 5'000'000;       // of all episodes together
-    std::optional<int> episodes;          // of a gradient; absent: 32, or 8 where nothing is drawn
+    int episodes = 8;                     // of a gradient
     std::optional<std::int64_t> horizon;  // steps of an episode; absent: the instance's
     double learning_rate = 3e-3;
     double clip = 3;  // a gradient is at most so many times as long as the mean of those before

@@ -77,8 +77,7 @@ struct DrpTrainer::State {
           second_moments(gradient.size()),
           features(static_cast<std::size_t>(model.features())),
           seen(features.size()) {
-        if (!options.episodes) options.episodes = simulator.problem->stochastic ? 32 : 8;
-        groups = (*options.episodes + lanes - 1) / lanes;
+        groups = (options.episodes + lanes - 1) / lanes;
     }
 
     void require_memory() const {

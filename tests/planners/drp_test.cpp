@@ -119,7 +119,6 @@ TEST(Drp, LearnsToActBetterThanNoop) {
 TEST(Drp, GoesOnAsIfItHadNotStopped) {
     const auto source = derivatives_in(EXAMPLES "/network");
     DrpOptions options = small_training();
-    options.episodes = 8;
     DrpTrainer whole(network(), options, source), first(network(), options, source),
         second(network(), options, source);
     whole.update();

