@@ -69,9 +69,9 @@ bool may_determinise(const UctOptions& options, std::size_t actions) {
            options.budget.steps.value_or(most_steps) >= least_states * steps;
 }
 
-Initial initial_of(const UctOptions& options, std::size_t actions) {
+Initial initial_of(const PlannerContext& context, const UctOptions& options, std::size_t actions) {
     if (options.initial) return *options.initial;
-    if (!options.policy.empty()) return Initial::Lookahead;
+    if (context.base) return context.base->values ? Initial::Value : Initial::Lookahead;
     return may_determinise(options, actions) ? Initial::Determinised : Initial::Rollout;
 }
 
@@ -84,9 +84,8 @@ solvers::StateValues values_of(const solvers::Policy& policy, std::int64_t lanes
                   "observed in full");
 }
 
-std::int64_t leaf_lanes(const UctOptions& options, std::size_t actions) {
-    const auto each =
-        static_cast<std::int64_t>(initial_of(options, actions) == Initial::Lookahead ? actions : 4);
+std::int64_t leaf_lanes(const UctOptions& options, Initial initial, std::size_t actions) {
+    const auto each = static_cast<std::int64_t>(initial == Initial::Lookahead ? actions : 4);
     return std::clamp<std::int64_t>(affordable_lanes(options, options.lanes) * each, 1,
                                     most_leaf_lanes);
 }
@@ -99,9 +98,10 @@ Uct::Uct(const PlannerContext& context, const UctOptions& options)
       state_size_(static_cast<std::size_t>(simulator_.problem->state_size)),
       action_size_(static_cast<std::size_t>(simulator_.problem->action_size)),
       actions_(finite_actions(simulator_, options.actions)),
-      initial_(initial_of(options, actions_.count())),
+      initial_(initial_of(context, options, actions_.count())),
       trees_(simulator_, affordable_lanes(options, options.lanes), context.horizon),
-      continuations_(simulator_, leaf_lanes(options, actions_.count()), context.horizon, true),
+      continuations_(simulator_, leaf_lanes(options, initial_, actions_.count()), context.horizon,
+                     true),
       most_bytes_(static_cast<std::size_t>(context.memory_limit) / decision_share),
       most_kept_bytes_(static_cast<std::size_t>(context.memory_limit) / kept_share),
       memories_(context.environments),

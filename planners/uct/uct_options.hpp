@@ -16,8 +16,9 @@ struct UctOptions : CommonOptions {
     double exploration = 0.5;  // in ranges of the returns
     double outcomes = 4;       // of an action that was taken n times, at most outcomes * sqrt(n)
     Backup backup = Backup::Max;
-    int lookahead = 256;             // states that a search in the determinised problem may meet
-    std::optional<Initial> initial;  // nothing: Lookahead with a policy, else Determinised
+    int lookahead = 256;  // states that a search in the determinised problem may meet
+    // Nothing: Value with a policy that has values, Lookahead with another one, else Determinised.
+    std::optional<Initial> initial;
 };
 
 const solvers::OptionTable<UctOptions>& uct_option_table();
