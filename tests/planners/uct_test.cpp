@@ -323,6 +323,9 @@ TEST(Uct, ValuesNewStatesByTheValuesOfAPolicy) {
             EXPECT_NEAR(candidate.value, 4.75, 0.4);
         }
     EXPECT_NEAR(plan.mean(), 4.75, 2);
+    // It is the default where the policy has values.
+    EXPECT_EQ(plan.returns(),
+              run(ladder(), "plan:uct,iterations=4000,policy=knows the ladder", 20).returns());
     // Without a trial the policy's likeliest action is taken.
     const Played none = run(ladder(), "plan:uct,steps=2,policy=knows the ladder,initial=value");
     EXPECT_EQ(none.mean(), 4);
