@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 
 namespace rddlc::planners {
 
@@ -21,6 +22,9 @@ struct CemOptions : CommonOptions {
     Weights weights = Weights::Elites;
     double temperature = 0.2;  // of mppi, in deviations of the returns
 };
+
+// The correlations of noise, for one plan after the other.
+std::span<const double> correlations_of(const CemOptions& options);
 
 const solvers::OptionTable<CemOptions>& cem_option_table();
 
