@@ -24,7 +24,14 @@ constexpr double most_counted_entries = 1e6;
 // Where one execution of the aggregation looks.
 using Row = std::vector<std::int64_t>;
 
-// Aggregations right inside each other by the same operator, and the bool that they are about.
+// Aggregations right inside each other by the same operator, also over rows (ir::ReductionNest has
+// whole ranges alone): the outermost first, and what they aggregate.
+struct Levels {
+    std::vector<ir::Reduce> reduces;
+    ir::NodeId term;
+};
+
+// Those of them whose bits can be counted: the bool that they are about.
 struct CountedNest {
     Reduction op;
     std::vector<ir::Reduce> levels;  // outermost first
@@ -56,37 +63,69 @@ class BitCounting {
         if (!nest) return std::nullopt;
         places_.reset();
         variables_ = builder_.properties(id).free_variables;
-        if (!find_places(*nest) || !is_worthwhile(*nest)) return std::nullopt;
+        if (!find_places(*nest) || !is_worthwhile(*nest)) return test_of_parts(id);
         ++report_["aggregations that count bits"];
         return nest->op == Reduction::Sum ? sum(*nest) : tested(*nest);
     }
 
     // sum(int(a) - int(b)) = sum(int(a)) - sum(int(b)), if bits count both; ints wrap around.
     std::optional<ir::NodeId> sum_of_parts(ir::NodeId id) {
-        const auto [levels, term] = levels_of(id);
-        const auto* apply = std::get_if<ir::Apply>(&program_[term].form);
+        const Levels nest = levels_of(id);
+        const auto* apply = std::get_if<ir::Apply>(&program_[nest.term].form);
         const bool has_parts =
-            !levels.empty() && levels.front().op == Reduction::Sum && apply &&
-            program_[term].type == ir::Scalar::Int &&
+            !nest.reduces.empty() && nest.reduces.front().op == Reduction::Sum && apply &&
+            program_[nest.term].type == ir::Scalar::Int &&
             is_one_of(apply->op, {Operator::Negate, Operator::Add, Operator::Subtract});
         if (!has_parts) return std::nullopt;
         const ir::Apply parts = *apply;
         std::vector<ir::NodeId> sums;
         for (ir::NodeId part : parts.operands) {
-            for (auto level = levels.rbegin(); level != levels.rend(); ++level)
-                part = builder_.reduce(Reduction::Sum, level->variable, part, level->bounds);
-            const auto sum = counted(part);
+            const auto sum = counted(aggregated(nest, part));
             if (!sum) return std::nullopt;
             sums.push_back(*sum);
         }
         return builder_.apply(parts.op, std::move(sums));
     }
 
+    // forall(a & b) = forall(a) & forall(b), and exists(a | b) = exists(a) | exists(b), if bits
+    // count both, or one of them is the same for all objects.
+    std::optional<ir::NodeId> test_of_parts(ir::NodeId id) {
+        const Levels nest = levels_of(id);
+        const Reduction op = nest.reduces.front().op;
+        const auto* apply = std::get_if<ir::Apply>(&program_[nest.term].form);
+        const Operator connective = op == Reduction::ForAll ? Operator::And : Operator::Or;
+        const bool has_parts = op != Reduction::Sum && apply && apply->op == connective &&
+                               !builder_.properties(nest.term).may_fault &&
+                               std::ranges::all_of(nest.reduces, [&](const ir::Reduce& level) {
+                                   return !level.bounds && program_[level.variable].size > 0;
+                               });
+        if (!has_parts) return std::nullopt;
+        const ir::Apply parts = *apply;
+        std::vector<ir::NodeId> tests;
+        for (ir::NodeId part : parts.operands) {
+            const auto test = is_same_in(nest, part) ? part : counted(aggregated(nest, part));
+            if (!test) return std::nullopt;
+            tests.push_back(*test);
+        }
+        return builder_.apply(connective, std::move(tests));
+    }
+
+    bool is_same_in(const Levels& nest, ir::NodeId part) const {
+        const auto& free = builder_.properties(part).free_variables;
+        return std::ranges::none_of(nest.reduces, [&](const ir::Reduce& level) {
+            return std::ranges::binary_search(free, level.variable);
+        });
+    }
+
+    ir::NodeId aggregated(const Levels& nest, ir::NodeId part) {
+        for (auto level = nest.reduces.rbegin(); level != nest.reduces.rend(); ++level)
+            part = builder_.reduce(level->op, level->variable, part, level->bounds);
+        return part;
+    }
+
     // ------------------------------------------------------------------------------ finding
 
-    // Reductions by one operator right inside each other, also over rows (ir::ReductionNest has
-    // whole ranges alone): the outermost first, and the body.
-    std::pair<std::vector<ir::Reduce>, ir::NodeId> levels_of(ir::NodeId id) const {
+    Levels levels_of(ir::NodeId id) const {
         std::vector<ir::Reduce> levels;
         while (const auto* level = std::get_if<ir::Reduce>(&program_[id].form)) {
             if (!levels.empty() && level->op != levels.front().op) break;
@@ -97,9 +136,10 @@ class BitCounting {
     }
 
     std::optional<CountedNest> nest_of(ir::NodeId id) const {
-        auto [levels, body] = levels_of(id);
-        if (levels.empty()) return std::nullopt;
-        CountedNest nest{levels.front().op, std::move(levels), body};
+        Levels found = levels_of(id);
+        if (found.reduces.empty()) return std::nullopt;
+        const Reduction op = found.reduces.front().op;
+        CountedNest nest{op, std::move(found.reduces), found.term};
         if (nest.op == Reduction::Sum) {
             const auto* convert = std::get_if<ir::Convert>(&program_[nest.condition].form);
             if (!convert || program_[id].type != ir::Scalar::Int) return std::nullopt;

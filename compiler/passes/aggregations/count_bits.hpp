@@ -8,6 +8,8 @@
 //                                       =>
 //     bit_and(bits(state.running, 0), bits(action.reboot, 0)) != 0
 //
+// A forall over a conjunction, or an exists over a disjunction, is tested by its parts.
+//
 // Which elements count must be known, and all tables must be read at the same place. A place has
 // one bit: if several entries of a row read it, a sum would not count it once for each of them, so
 // the sum stays; and so does a test if its known conditions differ between these entries. An int

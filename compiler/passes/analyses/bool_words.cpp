@@ -55,8 +55,10 @@ bool is_of_bools(const ir::Program& program, ir::NodeId id, const ir::Nest& nest
     return match(
         node.form,
         [&](const ir::Load& load) {
-            return load.indices.size() == nest.variables.size() &&
-                   ir::begins_with(program, load.indices, nest);
+            const auto outer = load.indices.size() - nest.variables.size();
+            return ir::ends_with(program, load.indices, nest) &&
+                   std::all_of(load.indices.begin(), load.indices.begin() + outer,
+                               [&](ir::NodeId index) { return !differs(program, index, nest); });
         },
         [](const ir::Element&) { return true; }, [](const ir::Local&) { return true; },
         [&](const ir::Apply& apply) { return are_of_bools(apply.operands); },

@@ -18,6 +18,8 @@ namespace {
 // An aggregation of more terms stays a loop; so does one of several terms that objects have less
 // than half of on average.
 constexpr std::int64_t most_terms = 8;
+// One over all objects of a type has fewer terms: each of them may add a table of places.
+constexpr std::int64_t most_whole_terms = 3;
 // Tables of more objects are not worth their memory.
 constexpr std::int64_t most_objects = 1 << 16;
 
@@ -111,7 +113,17 @@ class PlaceReading {
             return is_of_objects(index) ||
                    std::holds_alternative<ir::Constant>(program_[index].form);
         });
-        return is_fixed && !is_own(*load) && !builder_.properties(id).free_variables.empty();
+        return is_fixed && !is_own(*load) && !is_row(*load) &&
+               !builder_.properties(id).free_variables.empty();
+    }
+    // The objects lie next to each other in a table of more dimensions.
+    bool is_row(const ir::Load& load) const {
+        return ir::ends_with(program_, load.indices, nest_) &&
+               std::ranges::all_of(
+                   load.indices.begin(), load.indices.end() - std::ssize(nest_.variables),
+                   [&](ir::NodeId index) {
+                       return std::holds_alternative<ir::Constant>(program_[index].form);
+                   });
     }
 
     // Registers gather no bools by indices that differ between objects and steps.
@@ -119,7 +131,7 @@ class PlaceReading {
         const ir::Node& node = program_[id];
         const auto* load = std::get_if<ir::Load>(&node.form);
         if (load && node.type == ir::Scalar::Bool && !is_own(*load) && !is_chosen(id) &&
-            !builder_.properties(id).uniform) {
+            !is_row(*load) && !builder_.properties(id).uniform) {
             return std::ranges::any_of(load->indices, [&](ir::NodeId index) {
                 return !ir::is_same_for_all(builder_.properties(index), nest_);
             });
@@ -165,7 +177,7 @@ class PlaceReading {
     // Empty if they are too many, or not known.
     std::vector<Entry> entries_of(const ir::Reduce& reduce) {
         std::vector<Entry> entries;
-        if (!reduce.bounds) return {};
+        if (!reduce.bounds) return all_entries_of(reduce);
         const auto begins = values_of(reduce.bounds->begin), ends = values_of(reduce.bounds->end);
         if (!begins || !ends) return {};
         std::int64_t most = 0, all = 0;
@@ -186,6 +198,15 @@ class PlaceReading {
             entries.push_back({table("entries", ir::Scalar::Int, std::move(numbers)),
                                table("table", ir::Scalar::Bool, std::move(there))});
         }
+        return entries;
+    }
+
+    std::vector<Entry> all_entries_of(const ir::Reduce& reduce) {
+        std::vector<Entry> entries;
+        const std::int64_t count = program_[reduce.variable].size;
+        if (count > most_whole_terms || !are_many(program_, nest_)) return {};
+        for (std::int64_t k = 0; k < count; ++k)
+            entries.push_back({builder_.constant(k), builder_.constant(true)});
         return entries;
     }
 
@@ -210,6 +231,7 @@ class PlaceReading {
         const auto* found = std::get_if<ir::Load>(&program_[id].form);
         if (!found) return std::nullopt;
         ir::Load load = *found;
+        if (is_row(load)) return id;
         if (!is_chosen(id) && ir::begins_with(program_, load.indices, nest_)) {
             for (std::size_t axis = nest_.variables.size(); axis < load.indices.size(); ++axis)
                 load.indices[axis] = with_places(load.indices[axis]);

@@ -8,7 +8,7 @@
 //             next.at[x, y] = at-table[x, y] && element(state.at, at-places[x, y])
 //
 // Other values that constants decide in such a loop also become tables of its objects; an exists or
-// forall over the few entries of a row becomes its terms:
+// forall over the few entries of a row, or over a type of few objects, becomes its terms:
 //
 //     next.up[c] = exists[entry in LINK-rows[c] .. LINK-rows[c + 1]](state.up[LINK-d[entry]])
 //                                         =>

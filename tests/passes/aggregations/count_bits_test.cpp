@@ -67,6 +67,16 @@ TEST(CountBits, TestsElements) {
               "int(bit_xor(bits(state.p, 0), bits(state.q, 0)) == 0)");
 }
 
+TEST(CountBits, TestsPartsByThemselves) {
+    EXPECT_EQ(counted_in_bits("forall_{?o : obj, ?u : obj} [s(?o, ?u) ^ x > 2]"),
+              "int(bit_and(bit_xor(bits(state.s, 0), -1), 511) == 0 && state.x > 2)");
+    EXPECT_EQ(counted_in_bits("exists_{?o : obj, ?u : obj} [s(t, t) | s(?o, ?u) ^ ~s(?o, ?u)]"),
+              "int(state.s[state.t, state.t] || "
+              "bit_and(bits(state.s, 0), bit_xor(bits(state.s, 0), -1)) != 0)");
+    EXPECT_EQ(counted_in_bits("exists_{?o : obj, ?u : obj} [s(?o, ?u) ^ x > 2]").find("bits("),
+              std::string::npos);
+}
+
 TEST(CountBits, TakesSeveralWords) {
     EXPECT_EQ(
         counted_in_bits("sum_{?o : obj, ?u : obj, ?v : obj, ?w : obj} [many(?o, ?u, ?v, ?w)]"),

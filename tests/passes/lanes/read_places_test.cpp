@@ -62,6 +62,24 @@ TEST(ReadPlaces, TakesElementsOfOtherPairsAndConstantsOfDraws) {
               "    next.v[x] = state.v[x]\n");
 }
 
+// The last three dimensions of `given` are the objects of the loop, so its elements are rows.
+TEST(ReadPlaces, TakesTheTermsOfAnExistsOverFewObjects) {
+    const Problem problem{
+        .pvariables =
+            "in(obj, obj, obj) : { state-fluent, bool, default = false };\n"
+            "given(obj, obj, obj, obj) : { action-fluent, bool, default = false };",
+        .cpfs = "in'(?x, ?y, ?z) = exists_{?w : obj} [in(?y, ?w, ?w) & given(?w, ?x, ?y, ?z)];"};
+    passes::Report report;
+    EXPECT_EQ(step_text(valid(passes::read_places(grounded(problem), report))),
+              "for x in obj, several at once\n"
+              "    for y in obj\n"
+              "        for z in obj\n"
+              "            next.in[x, y, z] = element(state.in, in-places[x, y, z]) && "
+              "action.given[0, x, y, z] || element(state.in, in-places-2[x, y, z]) && "
+              "action.given[1, x, y, z] || element(state.in, in-places-3[x, y, z]) && "
+              "action.given[2, x, y, z]\n");
+}
+
 TEST(ReadPlaces, LeavesWhatTheStepDecidesAndWhatIsThereAlready) {
     for (const char* cpf :
          {"on(?x, ?y) | a(?x) & v(?y) > 2.0", "on(?x, ?y)",
