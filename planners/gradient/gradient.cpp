@@ -196,8 +196,8 @@ void Gradient::time_comparison(const DecisionPoint& point, const Memory& memory,
 // Leaves room for the comparison.
 void Gradient::ascend(const DecisionPoint& point, Memory& memory, RandomStream& stream,
                       BudgetMeter& meter) {
-    solvers::require_done(simulator_,
-                          simulator_.get_state(point.batch, point.place, 1, state_.data()));
+    solvers::require_done(
+        simulator_, simulator_.get_state(point.origin.batch, point.origin.first, 1, state_.data()));
     derivatives_.front()->read_state(state_.data(), state_numbers_);
     const std::int64_t depth = std::min(horizon_, point.left);
     const auto cost = static_cast<std::int64_t>(plans_ * scenarios_) * depth;
@@ -269,7 +269,7 @@ std::int64_t Gradient::compare(const DecisionPoint& point, const Memory& memory,
     }
     const double before = meter.seconds();
     const double patience = options_.replan > 1 && memory.is_improved ? comparison_patience : 0;
-    futures_.begin(point.batch, point.place, streams_);
+    futures_.begin(point.origin, streams_);
     if (base_) base_->begin(point.episode, point.step, point.horizon, streams_);
     std::int64_t t = 0;
     const auto gives_up = [&] {
@@ -353,7 +353,7 @@ void Gradient::write_first(const Candidate& candidate, const Memory& memory,
     records_.write(row, action);
     if (!space_.may_be_illegal) return;
     const std::uint64_t seed = 0;
-    single_.begin(point.batch, point.place, {&seed, 1});
+    single_.begin(point.origin, {&seed, 1});
     solvers::repair_actions(simulator_, space_, records_, single_.batch(), row, action,
                             single_repair_);
 }
