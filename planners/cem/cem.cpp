@@ -4,7 +4,6 @@
 #include "support/failure.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -39,13 +38,6 @@ std::size_t population_of(const PlannerContext& context, const CemOptions& optio
     return static_cast<std::size_t>(population);
 }
 
-// The correlations of noise, for one plan after the other.
-std::span<const double> correlations_of(const CemOptions& options) {
-    static constexpr std::array<double, 5> mixture{0, 0.5, 0.8, 0.95, 1};
-    if (options.correlation < 0) return mixture;
-    return {&options.correlation, 1};
-}
-
 // Fewer draws of stream where a budget has no room for them.
 std::size_t affordable(std::size_t scenarios, const Budget& budget) {
     if (!budget.steps) return scenarios;
@@ -57,6 +49,8 @@ std::size_t affordable(std::size_t scenarios, const Budget& budget) {
 Cem::Cem(const PlannerContext& context, const CemOptions& options)
     : simulator_(context.simulator),
       options_(options),
+      batch_horizon_(context.horizon),
+      memory_limit_(context.memory_limit),
       space_(solvers::action_space(simulator_)),
       records_(simulator_),
       scenarios_(affordable(scenarios_of(*simulator_.problem, options), options.budget)),
@@ -64,7 +58,7 @@ Cem::Cem(const PlannerContext& context, const CemOptions& options)
       futures_(simulator_,
                static_cast<std::int64_t>(scenarios_ * population_of(context, options, scenarios_)),
                context.horizon),
-      repair_(simulator_, space_, futures_.count()),
+      legal_(simulator_, space_, records_, futures_.count()),
       memories_(context.environments),
       plans_(static_cast<std::size_t>(futures_.count()) / scenarios_, space_.real_count(),
              space_.index_count()),
@@ -93,8 +87,7 @@ Cem::Cem(const PlannerContext& context, const CemOptions& options)
     order_.resize(population_);
     firsts_.resize(population_ * records_.record_size());
     streams_.resize(lanes_);
-    violated_.resize(lanes_);
-    rows_.resize(lanes_ * static_cast<std::size_t>(space_.column_count));
+    row_.resize(static_cast<std::size_t>(space_.column_count));
     actions_.resize(lanes_ * records_.record_size());
     by_policy_.resize(lanes_);
 }
@@ -161,13 +154,13 @@ void Cem::make_population(Memory& memory, const DecisionPoint& point, RandomStre
 void Cem::record_policy(const DecisionPoint& point, BudgetMeter& meter) {
     const std::size_t rows = plans_.steps();
     end_by_noop(plan_, 0, static_cast<std::int64_t>(rows));
-    recording_->begin(point.batch, point.place, std::span(streams_).first(1));
+    recording_->begin(point.origin, std::span(streams_).first(1));
     recorder_->begin(point.episode, point.step, point.horizon, std::span(streams_).first(1));
     constexpr std::uint8_t wanted[] = {1};
     for (std::size_t t = 0; t < rows && recording_->any_running(); ++t) {
         recorder_->act(*recording_, wanted, actions_.data(), point.stops);
-        records_.read(actions_.data(), rows_.data());
-        solvers::read_action(space_, rows_.data(),
+        records_.read(actions_.data(), row_.data());
+        solvers::read_action(space_, row_.data(),
                              plan_.numbers.data() + t * default_numbers_.size(),
                              plan_.indices.data() + t * default_indices_.size());
         recording_->step(actions_.data());
@@ -191,27 +184,15 @@ void Cem::write_actions(std::span<const std::uint32_t> plans, std::size_t step) 
                     actions_.data() + begin);
 }
 
-// Most actions are legal most of the time, so that rows of values are made only where some are not.
-void Cem::make_legal() {
-    solvers::require_done(simulator_, simulator_.violated_preconditions(
-                                          futures_.batch(), actions_.data(), violated_.data()));
-    if (std::ranges::all_of(violated_, [](std::int32_t first) { return first < 0; })) return;
-    const auto columns = static_cast<std::size_t>(space_.column_count);
-    for (std::size_t k = 0; k < lanes_; ++k)
-        records_.read(actions_.data() + k * records_.record_size(), rows_.data() + k * columns);
-    solvers::repair_actions(simulator_, space_, records_, futures_.batch(), rows_.data(),
-                            actions_.data(), repair_);
-}
-
 std::int64_t Cem::play(const DecisionPoint& point, std::span<const std::uint32_t> plans,
                        std::int64_t steps, BudgetMeter& meter) {
     const bool has_policy = std::ranges::find(by_policy_, 1) != by_policy_.end();
-    futures_.begin(point.batch, point.place, streams_);
+    futures_.begin(point.origin, streams_);
     if (has_policy) base_->begin(point.episode, point.step, point.horizon, streams_);
     for (std::int64_t t = 0; t < steps && futures_.any_running(); ++t) {
         write_actions(plans, static_cast<std::size_t>(t));
         if (has_policy) base_->act(futures_, by_policy_, actions_.data(), point.stops);
-        if (space_.may_be_illegal) make_legal();
+        legal_.make_legal(futures_.batch(), actions_.data());
         if (t == 0) note_first_actions(plans);
         if (t % 4 == 0 && meter.is_late()) return t;
         futures_.step(actions_.data());
@@ -236,6 +217,7 @@ void Cem::rank() {
             scenarios_, [&](std::size_t s) { return futures_.value(s * population_ + c); });
         values_[c] = found.mean;
         errors_[c] = found.error;
+        if (origins_[c] == Origin::Noop) noop_value_ = found.mean;
     }
     sort_best();
 }
@@ -310,14 +292,6 @@ void Cem::rank_kept(const Memory& memory) {
     }
 }
 
-// Where nothing is better than doing nothing, what is worth it may lie further ahead.
-bool Cem::needs_more_steps(const Memory& memory, std::int64_t left) const {
-    if (options_.horizon || memory.horizon >= std::min(left, longest_lookahead)) return false;
-    for (std::size_t c = 0; c < population_; ++c)
-        if (origins_[c] == Origin::Noop) return !(values_[order_.front()] > values_[c]);
-    return false;
-}
-
 const std::byte* Cem::first_action(std::size_t plan) const {
     return firsts_.data() + plan * records_.record_size();
 }
@@ -335,6 +309,7 @@ void Cem::decide(const DecisionPoint& point, std::byte* action, Explanation* exp
     };
     std::int64_t depth = 0;
     double seconds = 0;
+    bool has_found = false;  // a plan that no population has played
     do {
         const double before = meter.seconds();
         const std::int64_t affordable_steps =
@@ -355,13 +330,11 @@ void Cem::decide(const DecisionPoint& point, std::byte* action, Explanation* exp
         keep_best(memory);
         meter.add_iterations();
         seconds = meter.seconds() - before;
-        if (needs_more_steps(memory, point.left)) {
-            memory.horizon = std::min({2 * memory.horizon, point.left, longest_lookahead});
-            memory.distribution.extend(memory.horizon);
-            for (std::size_t k = 0; k < memory.kept_count; ++k)
-                end_by_noop(memory.kept[k], wanted, memory.horizon);
-        }
-    } while (meter.has_room(played * depth + comparison(depth), compares ? seconds : 0));
+        const bool is_fruitful = values_[order_.front()] > noop_value_;
+        memory.fruitless = is_fruitful ? 0 : memory.fruitless + 1;
+        has_found = !is_fruitful && look_elsewhere(memory, point, stream, meter);
+    } while (has_found ||
+             meter.has_room(played * depth + comparison(depth), compares ? seconds : 0));
 
     Choice chosen{order_.front(), values_[order_.front()], errors_[order_.front()],
                   static_cast<std::int64_t>(scenarios_)};

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "planners/cem/cem_options.hpp"
+#include "planners/cem/novelty_search.hpp"
 #include "planners/cem/plan_actions.hpp"
 #include "planners/cem/plan_distribution.hpp"
 #include "planners/cem/plan_noise.hpp"
@@ -13,9 +14,9 @@
 #include "planners/simulation/base_policy.hpp"
 #include "planners/simulation/budget.hpp"
 #include "planners/simulation/futures.hpp"
+#include "planners/simulation/legal_actions.hpp"
 #include "planners/simulation/random_stream.hpp"
 #include "planners/simulation/value_tail.hpp"
-#include "solvers/spaces/action_repair.hpp"
 #include "solvers/spaces/actions.hpp"
 
 #include <cstddef>
@@ -45,6 +46,8 @@ class Cem : public Planner {
         std::vector<std::pair<double, double>> kept_values;  // and their errors
         std::size_t kept_count = 0;
         std::int64_t horizon = 0;
+        // Populations, one after the other, of which nothing was better than doing nothing.
+        std::int64_t fruitless = 0;
     };
     struct Choice {
         std::size_t plan;
@@ -62,7 +65,6 @@ class Cem : public Planner {
     std::int64_t play(const DecisionPoint& point, std::span<const std::uint32_t> plans,
                       std::int64_t steps, BudgetMeter& meter);
     void write_actions(std::span<const std::uint32_t> plans, std::size_t step);
-    void make_legal();
     void note_first_actions(std::span<const std::uint32_t> plans);
     void play_tail(const DecisionPoint& point, std::int64_t steps, BudgetMeter& meter);
     void draw_streams(RandomStream& stream, std::size_t plans);
@@ -72,7 +74,13 @@ class Cem : public Planner {
     void rank_kept(const Memory& memory);
     void refit(Memory& memory);
     void keep_best(Memory& memory);
-    bool needs_more_steps(const Memory& memory, std::int64_t left) const;
+    // Where nothing is better than doing nothing: what is worth it may lie further ahead, or where
+    // no noise around plans leads. Whether there is a new plan to play.
+    bool look_elsewhere(Memory& memory, const DecisionPoint& point, RandomStream& stream,
+                        BudgetMeter& meter);
+    void look_further(Memory& memory, std::int64_t most) const;
+    bool look_for_rare_states(Memory& memory, const DecisionPoint& point, RandomStream& stream,
+                              BudgetMeter& meter);
     Choice compare(const DecisionPoint& point, std::int64_t steps, RandomStream& stream,
                    BudgetMeter& meter);
     void note_candidates(Explanation& explanation, const Choice& chosen) const;
@@ -81,14 +89,16 @@ class Cem : public Planner {
 
     const rddl_simulator& simulator_;
     CemOptions options_;
+    std::int64_t batch_horizon_, memory_limit_;  // as in PlannerContext
     solvers::ActionSpace space_;
     solvers::ActionRecords records_;
     std::size_t population_, scenarios_, lanes_;
     Futures futures_;
-    solvers::RepairBuffers repair_;
+    LegalActions legal_;
     std::optional<BasePolicy> base_, recorder_;  // of all lanes; of one environment
     std::optional<Futures> recording_;
     std::optional<ValueTail> tail_;  // what follows plans, where it is by values
+    std::optional<NoveltySearch> novelty_search_;  // where it was needed before
     EpisodeMemories<Memory> memories_;
     std::vector<float> default_numbers_;
     std::vector<std::int32_t> default_indices_;
@@ -100,13 +110,13 @@ class Cem : public Planner {
     Plan plan_;
     std::vector<Origin> origins_;
     std::vector<double> values_, errors_;
+    double noop_value_ = 0;
     std::vector<std::size_t> order_;                      // the best first
     std::vector<std::pair<double, std::size_t>> ranked_;  // a value's negative, and its plan
     std::vector<std::byte> firsts_;  // action records of each plan's first step
     // The lanes.
     std::vector<std::uint64_t> streams_;
-    std::vector<std::int32_t> violated_;
-    std::vector<float> rows_;
+    std::vector<float> row_;  // of one action
     std::vector<std::byte> actions_;
     std::vector<std::uint8_t> by_policy_;
     // Buffers of a fit, and of a comparison.

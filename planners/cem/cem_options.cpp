@@ -1,5 +1,7 @@
 #include "planners/cem/cem_options.hpp"
 
+#include <array>
+
 namespace rddlc::planners {
 
 namespace {
@@ -14,6 +16,7 @@ solvers::OptionTable<O> make_cem_table() {
         "A learned policy, or another one, whose actions are among the first plans; what "
         "follows the horizon is played by it");
     solvers::OptionTable<O> own = {
+        particles_option<O>(),
         number_option<O, int>(
             {"population", "population", "N", "Plans of actions at a time (256)"},
             [](auto& o) -> auto& { return o.population; }, 4, 1 << 20),
@@ -62,6 +65,12 @@ solvers::OptionTable<O> make_cem_table() {
 }
 
 }  // namespace
+
+std::span<const double> correlations_of(const CemOptions& options) {
+    static constexpr std::array<double, 5> mixture{0, 0.5, 0.8, 0.95, 1};
+    if (options.correlation < 0) return mixture;
+    return {&options.correlation, 1};
+}
 
 const solvers::OptionTable<CemOptions>& cem_option_table() {
     static const solvers::OptionTable<CemOptions> table = make_cem_table();

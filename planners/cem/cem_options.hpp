@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 
 namespace rddlc::planners {
 
@@ -25,6 +26,9 @@ struct CemOptions : CommonOptions {
     double temperature = 0.2;  // of mppi, in deviations of the returns
     Tail tail = Tail::Policy;  // with a policy
 };
+
+// The correlations of noise, for one plan after the other.
+std::span<const double> correlations_of(const CemOptions& options);
 
 const solvers::OptionTable<CemOptions>& cem_option_table();
 

@@ -33,7 +33,11 @@ Distribution::Distribution(const ActionSpace& space, Spread spread)
       spread_(spread),
       first_means_(reals(), 0.0f),
       first_probabilities_(logits()),
-      fitted_(logits()) {
+      fitted_(logits()),
+      defaults_(indices()),
+      usual_(indices()) {
+    std::vector<float> numbers(reals());
+    solvers::read_action(space_, space_.defaults.data(), numbers.data(), defaults_.data());
     if (space.max_sub_actions > 0 && logits() > 1) {
         std::ranges::fill(first_probabilities_,
                           (1 - first_stop) / static_cast<float>(logits() - 1));
@@ -75,12 +79,27 @@ void Distribution::shift() {
     std::shift_left(means_.begin(), means_.end(), space_.real_count());
     std::shift_left(deviations_.begin(), deviations_.end(), space_.real_count());
     std::shift_left(probabilities_.begin(), probabilities_.end(), space_.logit_count);
+    widen();
+    begin_steps(steps_ - 1);
+}
+
+// Toward that of a new episode.
+void Distribution::widen() {
     const auto least = static_cast<float>(spread_.shifted * spread_.first);
     for (float& deviation : deviations_) deviation = std::max(deviation, least);
     for (std::size_t k = 0; k < probabilities_.size(); ++k)
         probabilities_[k] +=
             shifted_share * (first_probabilities_[k % logits()] - probabilities_[k]);
-    begin_steps(steps_ - 1);
+}
+
+void Distribution::centre_on(const Plan& plan) {
+    Population population(1, space_.real_count(), space_.index_count());
+    population.set_steps(steps_);
+    population.put(0, plan);
+    constexpr std::size_t first[] = {0};
+    constexpr double weight[] = {1};
+    fit(population, first, weight, 0, false);
+    widen();
 }
 
 void Distribution::draw(RandomStream& stream, PlanNoise& noise, Population& population) {
@@ -91,20 +110,25 @@ void Distribution::draw(RandomStream& stream, PlanNoise& noise, Population& popu
         for (std::size_t r = 0; r < reals(); ++r) {
             const float mean = means_[t * reals() + r], deviation = deviations_[t * reals() + r];
             loops_.scale_numbers(mean, deviation, space_.reals[r].range == RealHead::Range::Bounded,
-                                 noise.widths(), noise.numbers(r), plans, population.numbers(t, r));
+                                 noise.widths(r), noise.numbers(r), plans,
+                                 population.numbers(t, r));
         }
+        if (indices() == 0) continue;
+        write_usual(t, usual_.data());
         for (std::size_t h = 0; h < space_.categories.size(); ++h)
-            draw_index(t, space_.categories[h].first_logit, space_.categories[h].count,
-                       noise.ranks(h), plans, population.indices(t, h));
+            draw_index(t, space_.categories[h].first_logit, space_.categories[h].count, usual_[h],
+                       noise, noise.ranks(h), plans, population.indices(t, h));
         const auto positions = static_cast<std::size_t>(space_.max_sub_actions);
         for (std::size_t p = 0; p < positions; ++p)
-            draw_index(t, 0, space_.logit_count, noise.ranks(p), plans, population.indices(t, p));
+            draw_index(t, 0, space_.logit_count, usual_[p], noise, noise.ranks(p), plans,
+                       population.indices(t, p));
         if (positions > 1) leave_out_repetitions(t, population);
     }
 }
 
-void Distribution::draw_index(std::size_t step, int first_logit, int count,
-                              const std::int32_t* ranks, std::size_t plans, std::int32_t* chosen) {
+void Distribution::draw_index(std::size_t step, int first_logit, int count, std::int32_t usual,
+                              const PlanNoise& noise, const std::int32_t* ranks, std::size_t plans,
+                              std::int32_t* chosen) {
     const float* const probabilities =
         probabilities_.data() + step * logits() + static_cast<std::size_t>(first_logit);
     double sum = 0, below = 0;
@@ -116,7 +140,10 @@ void Distribution::draw_index(std::size_t step, int first_logit, int count,
     }
     // No rank reaches those that fill up the halves.
     thresholds_.resize(std::bit_ceil(thresholds_.size() + 1) - 1, rank_count);
-    loops_.count_reached(thresholds_.data(), thresholds_.size(), ranks, plans, chosen);
+    stretched_.resize(plans);
+    loops_.stretch(noise.habits(), noise.stretches(), ranks, plans, stretched_.data());
+    loops_.count_reached(thresholds_.data(), thresholds_.size(), stretched_.data(), plans, chosen);
+    loops_.keep_habits(noise.habits(), ranks, usual, plans, chosen);
 }
 
 // The first sub-action that stops is the last one, and a sub-action that changes the same value as
@@ -143,28 +170,29 @@ void Distribution::leave_out_repetitions(std::size_t step, Population& populatio
 
 void Distribution::middle(Plan& plan) const {
     std::copy_n(means_.begin(), means_.size(), plan.numbers.begin());
-    for (std::size_t t = 0; t < static_cast<std::size_t>(steps_); ++t) {
-        const float* const row = probabilities_.data() + t * logits();
-        std::int32_t* const chosen = plan.indices.data() + t * indices();
-        for (std::size_t h = 0; h < space_.categories.size(); ++h) {
-            const float* const first = row + space_.categories[h].first_logit;
-            chosen[h] = static_cast<std::int32_t>(
-                std::max_element(first, first + space_.categories[h].count) - first);
-        }
-        // The likeliest sub-actions, down to where it is likelier to stop.
-        int count = 0;
-        for (; count < space_.max_sub_actions; ++count) {
-            std::int32_t best = 0;
-            for (std::size_t c = 1; c < logits(); ++c)
-                if (row[c] > row[best] &&
-                    !is_changed(space_, chosen, count, space_.choices[c].column))
-                    best = static_cast<std::int32_t>(c);
-            if (best == 0) break;
-            chosen[count] = best;
-        }
-        if (space_.max_sub_actions > 0)
-            std::fill(chosen + count, chosen + space_.max_sub_actions, 0);
+    for (std::size_t t = 0; t < static_cast<std::size_t>(steps_); ++t)
+        write_usual(t, plan.indices.data() + t * indices());
+}
+
+void Distribution::write_usual(std::size_t step, std::int32_t* chosen) const {
+    const float* const row = probabilities_.data() + step * logits();
+    for (std::size_t h = 0; h < space_.categories.size(); ++h) {
+        const float* const first = row + space_.categories[h].first_logit;
+        const auto best = std::max_element(first, first + space_.categories[h].count);
+        chosen[h] =
+            first[defaults_[h]] == *best ? defaults_[h] : static_cast<std::int32_t>(best - first);
     }
+    // The likeliest sub-actions, down to where it is likelier to stop.
+    int count = 0;
+    for (; count < space_.max_sub_actions; ++count) {
+        std::int32_t best = 0;
+        for (std::size_t c = 1; c < logits(); ++c)
+            if (row[c] > row[best] && !is_changed(space_, chosen, count, space_.choices[c].column))
+                best = static_cast<std::int32_t>(c);
+        if (best == 0) break;
+        chosen[count] = best;
+    }
+    if (space_.max_sub_actions > 0) std::fill(chosen + count, chosen + space_.max_sub_actions, 0);
 }
 
 void Distribution::fit(const Population& population, std::span<const std::size_t> plans,

@@ -31,6 +31,8 @@ class Distribution {
     void extend(std::int64_t steps);
     // A step was made: the first one goes, the others are a bit wider again.
     void shift();
+    // Goes to that plan, which has as many steps.
+    void centre_on(const Plan& plan);
     std::int64_t steps() const { return steps_; }
 
     // Draws the first steps of all plans of the population, as many as it has.
@@ -44,8 +46,12 @@ class Distribution {
 
   private:
     void begin_steps(std::int64_t from);
-    void draw_index(std::size_t step, int first_logit, int count, const std::int32_t* ranks,
-                    std::size_t plans, std::int32_t* chosen);
+    void widen();
+    void draw_index(std::size_t step, int first_logit, int count, std::int32_t usual,
+                    const PlanNoise& noise, const std::int32_t* ranks, std::size_t plans,
+                    std::int32_t* chosen);
+    // The likeliest categories or sub-actions of a step.
+    void write_usual(std::size_t step, std::int32_t* chosen) const;
     void leave_out_repetitions(std::size_t step, Population& population) const;
     void fit_reals(const Population& population, std::size_t step,
                    std::span<const std::size_t> plans, std::span<const double> weights,
@@ -66,6 +72,9 @@ class Distribution {
     std::vector<float> probabilities_;                      // rows of logits
     std::vector<float> fitted_;                             // room for a row of logits
     std::vector<std::int32_t> thresholds_;                  // of ranks, between values
+    std::vector<std::int32_t> defaults_;                    // indices of the default action
+    std::vector<std::int32_t> usual_;                       // indices of a step
+    std::vector<std::int32_t> stretched_;                   // ranks of plans
 };
 
 }  // namespace rddlc::planners

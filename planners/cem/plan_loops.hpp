@@ -41,6 +41,12 @@ struct PlanLoops {
     // order and 2^n - 1.
     void (*count_reached)(const std::int32_t* thresholds, std::size_t count,
                           const std::int32_t* ranks, std::size_t plans, std::int32_t* reached);
+    // Where ranks[p] is below habits[p], plan p does what is usual: chosen[p] becomes `usual`. The
+    // other ranks are stretched over all ranks, for count_reached().
+    void (*stretch)(const std::int32_t* habits, const float* stretches, const std::int32_t* ranks,
+                    std::size_t plans, std::int32_t* stretched);
+    void (*keep_habits)(const std::int32_t* habits, const std::int32_t* ranks, std::int32_t usual,
+                        std::size_t plans, std::int32_t* chosen);
     // Values as write_action and ActionRecords have them: of a float's precision, and what is the
     // default there is the default itself.
     void (*real_values)(const RealScale& real, const float* numbers, std::size_t plans,

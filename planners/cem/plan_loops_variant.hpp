@@ -66,6 +66,22 @@ inline void count_reached(const std::int32_t* thresholds, std::size_t count,
             reached[p] += ranks[p] >= thresholds[reached[p] + half - 1] ? half : 0;
 }
 
+inline void stretch(const std::int32_t* habits, const float* stretches, const std::int32_t* ranks,
+                    std::size_t plans, std::int32_t* stretched) {
+    constexpr std::int32_t most = rank_count - 1;
+    for (std::size_t p = 0; p < plans; ++p) {
+        const std::int32_t above = ranks[p] - habits[p];
+        const auto rank =
+            static_cast<std::int32_t>(static_cast<float>(above > 0 ? above : 0) * stretches[p]);
+        stretched[p] = rank < most ? rank : most;
+    }
+}
+
+inline void keep_habits(const std::int32_t* habits, const std::int32_t* ranks, std::int32_t usual,
+                        std::size_t plans, std::int32_t* chosen) {
+    for (std::size_t p = 0; p < plans; ++p) chosen[p] = ranks[p] < habits[p] ? usual : chosen[p];
+}
+
 // 2^x for x <= 0, within 2e-7 of its value.
 inline float power_of_two(float x) {
     x = x > -126 ? x : -126;
@@ -130,5 +146,5 @@ inline void real_values(const RealScale& real, const float* numbers, std::size_t
         make_values([=](float u) { return centre + scale * static_cast<double>(u); });
 }
 
-inline constexpr PlanLoops loops{next_numbers, next_ranks, scale_numbers, count_reached,
-                                 real_values};
+inline constexpr PlanLoops loops{next_numbers, next_ranks,  scale_numbers, count_reached,
+                                 stretch,      keep_habits, real_values};

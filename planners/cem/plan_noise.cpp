@@ -9,22 +9,32 @@ PlanNoise::PlanNoise(std::size_t plans, int reals, int ranks, std::span<const do
       plans_(plans),
       nothing_(plans, 0.0f),
       all_(plans, 1.0f),
-      widths_(plans, 1.0f),
+      widths_(static_cast<std::size_t>(reals) * plans, 1.0f),
       no_chance_(plans, 0),
+      habits_(plans, 0),
+      stretches_(plans, 1.0f),
       numbers_(static_cast<std::size_t>(reals) * plans),
       ranks_(static_cast<std::size_t>(ranks) * plans) {
     for (std::size_t p = 0; p < plans; ++p) {
         const double correlation = correlations[p % correlations.size()];
         old_.push_back(static_cast<float>(correlation));
         fresh_.push_back(static_cast<float>(std::sqrt(1 - correlation * correlation)));
-        keep_.push_back(static_cast<std::uint32_t>(std::lround(256 * correlation)));
+        const double of_ranks = correlations[p / (2 * correlations.size()) % correlations.size()];
+        keep_.push_back(static_cast<std::uint32_t>(std::lround(256 * of_ranks)));
     }
 }
 
 void PlanNoise::restart(RandomStream& stream) {
     is_first_ = true;
-    if (numbers_.empty()) return;
-    for (float& width : widths_) width = std::exp(std::abs(stream.bell()));
+    if (!numbers_.empty())
+        for (float& width : widths_) width = std::exp(1.5f * stream.bell());
+    if (ranks_.empty()) return;
+    for (std::size_t p = 1; p < plans_; p += 2) {
+        constexpr double rarest = 7;  // in powers of two
+        const double departs = std::exp2(-rarest * stream.unit());
+        habits_[p] = static_cast<std::int32_t>((1 - departs) * rank_count);
+        stretches_[p] = static_cast<float>(1 / departs);
+    }
 }
 
 void PlanNoise::next_step(RandomStream& stream) {

@@ -14,7 +14,8 @@ namespace rddlc::planners {
 
 class PlanNoise {
   public:
-    // The noise of plan p has the correlation correlations[p % correlations.size()].
+    // The noise of plan p has the correlation correlations[p % correlations.size()]. That of its
+    // ranks changes more slowly from plan to plan, so that there is each of both together.
     PlanNoise(std::size_t plans, int reals, int ranks, std::span<const double> correlations);
 
     // The plans begin again: the next step depends on nothing before it.
@@ -24,9 +25,15 @@ class PlanNoise {
     // Each plan has a number with mean 0 and deviation 1, between -3 and 3: an autoregressive
     // process of sums of three uniform numbers. A search needs no tails.
     const float* numbers(std::size_t real) const { return numbers_.data() + real * plans_; }
-    // How wide the noise of a plan is where numbers have no bounds, so that it is not known how
-    // large they have to be: at least 1, and more than 7 in one plan of 20.
-    const float* widths() const { return widths_.data(); }
+    // How wide the noise of a real is in each plan where numbers have no bounds, so that it is not
+    // known how large they have to be: as often more than 1 as less, and more than 7 in one plan of
+    // ten. Each real is narrow in some plans, so that its costs do not hide what the others gain.
+    const float* widths(std::size_t real) const { return widths_.data() + real * plans_; }
+    // Plans that do what is usual most of the time: below the habit of a plan its rank says so, and
+    // the others have to be stretched by that much over all ranks. The habit of every other plan is
+    // 0; those between depart from what is usual once in 1 to 128 steps.
+    const std::int32_t* habits() const { return habits_.data(); }
+    const float* stretches() const { return stretches_.data(); }
     // Each plan has a uniform number in 0 .. rank_count - 1. It is that of the step before with the
     // probability of the correlation, else a new one: so ranks are uniform in each step.
     const std::int32_t* ranks(std::size_t rank) const { return ranks_.data() + rank * plans_; }
@@ -38,8 +45,10 @@ class PlanNoise {
     std::vector<float> old_, fresh_;    // weights, by plan
     std::vector<std::uint32_t> keep_;   // the probability of an old rank, in 256ths
     std::vector<float> nothing_, all_;  // the same of first steps
-    std::vector<float> widths_;
+    std::vector<float> widths_;         // [real][plan]
     std::vector<std::uint32_t> no_chance_;
+    std::vector<std::int32_t> habits_;
+    std::vector<float> stretches_;
     std::vector<float> numbers_;       // [real][plan]
     std::vector<std::int32_t> ranks_;  // [rank][plan]
 };

@@ -196,8 +196,8 @@ void Gradient::time_comparison(const DecisionPoint& point, const Memory& memory,
 // Leaves room for the comparison.
 void Gradient::ascend(const DecisionPoint& point, Memory& memory, RandomStream& stream,
                       BudgetMeter& meter) {
-    solvers::require_done(simulator_,
-                          simulator_.get_state(point.batch, point.place, 1, state_.data()));
+    solvers::require_done(
+        simulator_, simulator_.get_state(point.origin.batch, point.origin.first, 1, state_.data()));
     derivatives_.front()->read_state(state_.data(), state_numbers_);
     const std::int64_t depth = std::min(horizon_, point.left);
     const auto cost = static_cast<std::int64_t>(plans_ * scenarios_) * depth;
@@ -269,7 +269,7 @@ std::int64_t Gradient::compare(const DecisionPoint& point, const Memory& memory,
     }
     const double before = meter.seconds();
     const double patience = options_.replan > 1 && memory.is_improved ? comparison_patience : 0;
-    futures_.begin(point.batch, point.place, streams_);
+    futures_.begin(point.origin, streams_);
     if (base_) base_->begin(point.episode, point.step, point.horizon, streams_);
     std::int64_t t = 0;
     const auto gives_up = [&] {
@@ -345,15 +345,14 @@ void Gradient::write_first(const Candidate& candidate, const Memory& memory,
     if (candidate.kind == Candidate::Kind::Plan)
         parameters_.write(
             std::span(memory.plans[candidate.plan].parameters)
-                .subspan(static_cast<std::size_t>(memory.steps_made) * parameters_.count(),
-                         parameters_.count()),
+                .subspan(memory.steps_made * parameters_.count(), parameters_.count()),
             candidate.threshold, row);
     else
         std::ranges::copy(space_.defaults, row);
     records_.write(row, action);
     if (!space_.may_be_illegal) return;
     const std::uint64_t seed = 0;
-    single_.begin(point.batch, point.place, {&seed, 1});
+    single_.begin(point.origin, {&seed, 1});
     solvers::repair_actions(simulator_, space_, records_, single_.batch(), row, action,
                             single_repair_);
 }
@@ -367,8 +366,7 @@ void Gradient::move_on(Memory& memory, RandomStream& stream) const {
     const std::size_t count = parameters_.count(), rows = static_cast<std::size_t>(horizon_);
     for (AscendingPlan& plan : memory.plans)
         for (std::size_t t = 0; t < rows; ++t) {
-            const std::size_t from =
-                std::min(t + static_cast<std::size_t>(memory.steps_made), rows - 1);
+            const std::size_t from = std::min(t + memory.steps_made, rows - 1);
             std::copy_n(plan.parameters.data() + from * count, count,
                         plan.parameters.data() + t * count);
         }

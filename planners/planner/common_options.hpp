@@ -15,6 +15,7 @@ struct CommonOptions {
     std::optional<std::int64_t> horizon;  // steps that are looked ahead
     std::string policy;                   // that roll-outs follow; "": none
     bool cheat = false;                   // sees the state of problems that hide it
+    int particles = 1024;                 // possible states, where it does not
     std::uint64_t seed = 0;
 };
 
@@ -54,12 +55,22 @@ solvers::OptionTable<Options> common_options(const std::string& iterations,
         std::move(base),
         solvers::choice_option<Options, bool>(
             {"cheat", "cheat", "yes|no",
-             "See the state of a problem that is observed in part (no: such a problem is refused)"},
+             "See the state of a problem that is observed in part (no: the planner sees what "
+             "policies see)"},
             [](auto& o) -> auto& { return o.cheat; }, {{"yes", true}, {"no", false}}),
         number_option<Options, std::uint64_t>(
             {"seed", "seed", "S", "Seed of the search (that of the command)"},
             [](auto& o) -> auto& { return o.seed; }, 0, std::numeric_limits<std::uint64_t>::max()),
     };
+}
+
+// Tables of planners that can do without the state have this one.
+template <class Options>
+PlannerOption<Options> particles_option() {
+    return solvers::number_option<Options, int>(
+        {"particles", "particles", "N",
+         "Possible states that are kept of an episode that is observed in part (1024)"},
+        [](auto& o) -> auto& { return o.particles; }, 1, 1 << 20);
 }
 
 }  // namespace rddlc::planners

@@ -1,6 +1,7 @@
 // The one interface of all planners: they search before each action.
 #pragma once
 
+#include "planners/simulation/origin.hpp"
 #include "solvers/batches/stops.hpp"
 #include "solvers/gradients/step_derivatives.hpp"
 #include "solvers/policies/policy.hpp"
@@ -21,13 +22,14 @@ inline constexpr std::int64_t no_end = std::numeric_limits<std::int64_t>::max();
 
 // The environment that an action is wanted for.
 struct DecisionPoint {
-    const rddl_batch* batch;
-    std::int64_t place;  // in the batch
+    Origin origin;       // of its futures
+    std::int64_t place;  // its number among the environments that the planner acts in
     std::int64_t episode;
     std::int64_t step;
     std::int64_t left;     // steps until the horizon, at least 1; no_end: there is none
     std::int64_t horizon;  // that batches of the planner take
     const solvers::Stops* stops = nullptr;
+    std::uint64_t history = 0;  // of actions and observations, where the state is hidden
     // The action of the base policy, which knows the episode from its beginning; NULL: there is no
     // such policy.
     const std::byte* base_action = nullptr;
@@ -45,6 +47,8 @@ struct Explanation {
     std::int64_t episode = 0, step = 0;
     std::int64_t depth = 0;  // steps that were looked ahead
     std::int64_t iterations = 0, steps = 0;
+    // Different states among the particles, where the state is hidden.
+    std::optional<std::int64_t> particles = {};
     std::string note = {};  // why there was no search
     std::vector<Candidate> candidates = {};
     std::size_t chosen = 0;  // of the candidates
@@ -69,6 +73,7 @@ struct PlannerContext {
     std::optional<solvers::Policy> base = {};
     // Empty where the text of the problem is not at hand.
     solvers::DerivativesSource derivatives = {};
+    bool sees_state = true;  // else the origins of decisions are particles
 };
 
 }  // namespace rddlc::planners

@@ -4,9 +4,11 @@
 #include "planners/cem/cem_options.hpp"
 #include "planners/gradient/gradient.hpp"
 #include "planners/gradient/gradient_options.hpp"
+#include "planners/planner/beliefs.hpp"
 #include "planners/planner/common_options.hpp"
 #include "planners/rollout/rollout.hpp"
 #include "planners/rollout/rollout_options.hpp"
+#include "planners/uct/history_search.hpp"
 #include "planners/uct/uct.hpp"
 #include "planners/uct/uct_options.hpp"
 #include "solvers/batches/batch.hpp"
@@ -33,12 +35,14 @@ using Words = std::vector<std::pair<std::string, std::string>>;  // key and valu
 struct Chosen {
     std::string name;
     CommonOptions common;
+    bool takes_particles;
     std::function<std::unique_ptr<Planner>(const PlannerContext&)> make;
 };
 
 struct Entry {
     PlannerText text;
     bool needs_policy = false;
+    bool takes_particles = false;  // in place of a state that is hidden
     std::function<Chosen(const Words&)> read;
 };
 
@@ -62,16 +66,30 @@ void set_option(const std::string& planner, const solvers::OptionTable<Options>&
     }
 }
 
+template <class ItsPlanner, class Options>
+std::unique_ptr<Planner> make_planner(const PlannerContext& context, const Options& options) {
+    return std::make_unique<ItsPlanner>(context, options);
+}
+// Lists of actions and states that are seen are searched by a tree of states, all else by one of
+// histories.
+template <>
+std::unique_ptr<Planner> make_planner<Uct>(const PlannerContext& context,
+                                           const UctOptions& options) {
+    if (context.sees_state && Uct::can_list_actions(context.simulator, options))
+        return std::make_unique<Uct>(context, options);
+    return std::make_unique<HistorySearch>(context, options);
+}
+
 template <class Options, class ItsPlanner>
 Entry entry(const std::string& name, const std::string& summary, bool needs_policy,
-            const solvers::OptionTable<Options>& (*table)()) {
-    Entry made{{name, summary, {}}, needs_policy, {}};
+            bool takes_particles, const solvers::OptionTable<Options>& (*table)()) {
+    Entry made{{name, summary, {}}, needs_policy, takes_particles, {}};
     for (const PlannerOption<Options>& option : table()) made.text.options.push_back(option);
-    made.read = [name, table](const Words& words) {
+    made.read = [name, takes_particles, table](const Words& words) {
         Options options;
         for (const auto& [key, value] : words) set_option(name, table(), key, value, options);
-        return Chosen{name, options, [options](const PlannerContext& context) {
-                          return std::make_unique<ItsPlanner>(context, options);
+        return Chosen{name, options, takes_particles, [options](const PlannerContext& context) {
+                          return make_planner<ItsPlanner>(context, options);
                       }};
     };
     return made;
@@ -82,19 +100,17 @@ const std::vector<Entry>& entries() {
         entry<CemOptions, Cem>("cem",
                                "the best of many plans, sampled again and again; for "
                                "reals, ints, bools and objects",
-                               false, cem_option_table),
+                               false, true, cem_option_table),
         entry<GradientOptions, Gradient>("gradient",
                                          "plans that go up the exact gradient of their return; "
                                          "for reals, ints between bounds and bools",
-                                         false, gradient_option_table),
+                                         false, false, gradient_option_table),
         entry<RolloutOptions, Rollout>("rollout",
                                        "each action of a policy improved: others are tried, and "
                                        "the policy plays on",
-                                       true, rollout_option_table),
-        entry<UctOptions, Uct>("uct",
-                               "a tree of actions and of what they lead to, built by trials; for "
-                               "finitely many actions",
-                               false, uct_option_table),
+                                       true, true, rollout_option_table),
+        entry<UctOptions, Uct>("uct", "a tree of actions and of what they lead to, built by trials",
+                               false, true, uct_option_table),
     };
     return all;
 }
@@ -142,8 +158,13 @@ Chosen read_planner(const std::string& name, const Words& words) {
     return chosen;
 }
 
-void require_sight(const rddl_problem& problem, const Chosen& chosen, bool cheat) {
-    if (!problem.partially_observed || chosen.common.cheat || cheat) return;
+bool sees_state(const rddl_problem& problem, const Chosen& chosen, const PolicySettings& settings) {
+    return !problem.partially_observed || chosen.common.cheat || settings.cheat;
+}
+
+void require_sight(const rddl_problem& problem, const Chosen& chosen,
+                   const PolicySettings& settings) {
+    if (chosen.takes_particles || sees_state(problem, chosen, settings)) return;
     throw Failure(
         fmt::format("plan:{} needs the state, which {} ({}) hides from policies", chosen.name,
                     problem.instance, problem.domain),
@@ -168,27 +189,35 @@ class PlanningActor {
         const rddl_problem& problem = *simulator_.problem;
         if (!planner_)
             planner_ = chosen_.make({simulator_, environments_, decision.horizon,
-                                     settings_.memory_limit, base_, settings_.derivatives});
+                                     settings_.memory_limit, base_, settings_.derivatives,
+                                     sees_state(problem, chosen_, settings_)});
         const std::int64_t horizon = solvers::steps_of_horizon(problem, decision.horizon);
+        if (!sees_state(problem, chosen_, settings_) && !beliefs_)
+            beliefs_.emplace(simulator_, chosen_.common.particles, environments_, decision.horizon,
+                             chosen_.common.seed);
         if (base_) ask_base(decision);
         for (std::size_t i = 0; i < decision.running.size(); ++i) {
             if (!decision.running[i]) continue;
             if (solvers::is_stopped(decision.stops)) return;
-            DecisionPoint point{decision.batch,
-                                static_cast<std::int64_t>(i),
-                                decision.episodes[i],
-                                decision.steps[i],
-                                no_end,
-                                decision.horizon,
+            const auto place = static_cast<std::int64_t>(i);
+            DecisionPoint point{{decision.batch, place}, place,  decision.episodes[i],
+                                decision.steps[i],       no_end, decision.horizon,
                                 decision.stops};
             if (horizon > 0) point.left = std::max<std::int64_t>(1, horizon - point.step);
             if (base_)
                 point.base_action =
                     base_actions_.data() + i * static_cast<std::size_t>(problem.action_size);
             Explanation explanation{point.episode, point.step};
-            planner_->decide(point,
-                             decision.actions + i * static_cast<std::size_t>(problem.action_size),
-                             settings_.explain ? &explanation : nullptr);
+            if (beliefs_) {
+                const Particles& particles = beliefs_->after(decision, i);
+                point.origin = {particles.batch(), 0, particles.count()};
+                point.history = beliefs_->history(i);
+                if (settings_.explain) explanation.particles = particles.distinct();
+            }
+            std::byte* const action =
+                decision.actions + i * static_cast<std::size_t>(problem.action_size);
+            planner_->decide(point, action, settings_.explain ? &explanation : nullptr);
+            if (beliefs_) beliefs_->note_action(i, action);
             if (settings_.explain) settings_.explain(explanation);
         }
     }
@@ -214,6 +243,7 @@ class PlanningActor {
     PolicySettings settings_;
     std::int64_t environments_;
     std::unique_ptr<Planner> planner_;
+    std::optional<Beliefs> beliefs_;  // where the state is hidden
     solvers::Actor base_actor_;
     std::vector<std::byte> base_actions_;
     std::vector<std::int32_t> base_violated_;
@@ -241,7 +271,7 @@ solvers::Policy planner_policy(const rddl_simulator& simulator, const std::strin
     // Later options override the seed of the command.
     words.insert(words.begin(), {"seed", std::to_string(settings.seed)});
     const Chosen chosen = read_planner(name, words);
-    require_sight(*simulator.problem, chosen, settings.cheat);
+    require_sight(*simulator.problem, chosen, settings);
     std::optional<solvers::Policy> base;
     if (!chosen.common.policy.empty()) base = settings.named(chosen.common.policy);
     const auto start = [&simulator, chosen, base,

@@ -44,7 +44,7 @@ void Rollout::find_candidates(const DecisionPoint& point, RandomStream& stream) 
         candidates_.push_back({action});
     };
     if (actions_) {
-        actions_->find_legal(point.batch, point.place, legal_);
+        actions_->find_legal(point.origin, legal_);
         for (std::size_t a = 0; a < actions_->count(); ++a)
             if (legal_[a]) add(actions_->record(a));
     } else {
@@ -68,7 +68,7 @@ void Rollout::draw_actions(const DecisionPoint& point, RandomStream& stream) {
     }
     streams_.clear();
     for (std::size_t k = 0; k < count; ++k) streams_.push_back(stream.bits());
-    sampling_->begin(point.batch, point.place, streams_);
+    sampling_->begin(point.origin, streams_);
     random_.begin(point.episode, point.step, point.horizon, streams_);
     const std::vector<std::uint8_t> all(count, 1);
     random_.act(*sampling_, all, drawn_.data(), point.stops);

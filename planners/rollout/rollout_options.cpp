@@ -12,6 +12,7 @@ solvers::OptionTable<RolloutOptions> make_rollout_table() {
         common_options<Its>("Batches of roll-outs of a decision",
                             "Steps of a roll-out (to the end of the episode, at most 1000)",
                             "The policy that is improved: learned, random, noop, rddl or a trace");
+    table.push_back(particles_option<Its>());
     table.push_back(number_option<Its, int>(
         {"lanes", "lanes", "N", "Roll-outs side by side (256)"},
         [](auto& o) -> auto& { return o.lanes; }, 1, 1 << 20));

@@ -31,7 +31,7 @@ void Continuations::begin(const DecisionPoint& point, std::span<const Start> sta
         wanted_[k] = has_start && !starts[k].action;
         is_elsewhere |= has_start && starts[k].state;
     }
-    futures_.begin(point.batch, point.place, streams_);
+    futures_.begin(point.origin, streams_);
     if (is_elsewhere) {
         solvers::require_done(simulator_, simulator_.get_state(futures_.batch(), 0,
                                                                futures_.count(), states_.data()));

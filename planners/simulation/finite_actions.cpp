@@ -88,21 +88,28 @@ void FiniteActions::add_sub_actions(const ActionSpace& space) {
     }
 }
 
-void FiniteActions::find_legal(const rddl_batch* batch, std::int64_t place,
-                               std::vector<std::uint8_t>& legal) {
+void FiniteActions::find_legal(const Origin& origin, std::vector<std::uint8_t>& legal) {
+    constexpr std::int64_t most_asked = 8;
     legal.assign(count_, 1);
     if (!asks_) return;
+    const std::int64_t asked = std::min(origin.count, most_asked);
+    for (std::int64_t k = 0; k < asked; ++k)
+        ask(origin.batch, origin.first + k * origin.count / asked, legal);
+    if (std::ranges::find(legal, 1) == legal.end()) legal.assign(count_, 1);
+}
+
+// Those that are illegal in that environment become so.
+void FiniteActions::ask(const rddl_batch* batch, std::int64_t place,
+                        std::vector<std::uint8_t>& legal) {
     if (!lanes_) {
         lanes_.emplace(*simulator_, static_cast<std::int64_t>(count_), 0);
         streams_.resize(count_);
         violated_.resize(count_);
     }
-    lanes_->begin(batch, place, streams_);
+    lanes_->begin({batch, place}, streams_);
     solvers::require_done(*simulator_, simulator_->violated_preconditions(
                                            lanes_->batch(), records_.data(), violated_.data()));
-    bool any = false;
-    for (std::size_t a = 0; a < count_; ++a) any |= legal[a] = violated_[a] < 0;
-    if (!any) legal.assign(count_, 1);
+    for (std::size_t a = 0; a < count_; ++a) legal[a] = legal[a] && violated_[a] < 0;
 }
 
 }  // namespace rddlc::planners

@@ -28,11 +28,12 @@ class FiniteActions {
     std::span<const std::byte> records() const { return records_; }
     // Whether there are states in which some of them violate preconditions.
     bool may_be_illegal() const { return asks_; }
-    // Whether each of them satisfies the preconditions where environment `place` of the batch
-    // stands. Where none does, all are taken for legal.
-    void find_legal(const rddl_batch* batch, std::int64_t place, std::vector<std::uint8_t>& legal);
+    // Whether each of them satisfies the preconditions in the environment of the origin; of
+    // particles, in some of them. Where none does, all are taken for legal.
+    void find_legal(const Origin& origin, std::vector<std::uint8_t>& legal);
 
   private:
+    void ask(const rddl_batch* batch, std::int64_t place, std::vector<std::uint8_t>& legal);
     FiniteActions(const rddl_simulator& simulator, bool asks)
         : simulator_(&simulator), asks_(asks) {}
     void add_categories(const solvers::ActionSpace& space);

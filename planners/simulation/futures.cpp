@@ -8,10 +8,8 @@ namespace rddlc::planners {
 
 using solvers::require_done;
 
-namespace {
-
-solvers::BatchHandle batch_of(const rddl_simulator& simulator, std::int64_t count,
-                              std::int64_t horizon) {
+solvers::BatchHandle batch_of_lanes(const rddl_simulator& simulator, std::int64_t count,
+                                    std::int64_t horizon) {
     rddl_batch_options options{};
     options.environment_count = count;
     options.thread_count = 1;  // episodes are planned for side by side
@@ -19,11 +17,9 @@ solvers::BatchHandle batch_of(const rddl_simulator& simulator, std::int64_t coun
     return solvers::create_batch(simulator, options);
 }
 
-}  // namespace
-
 Futures::Futures(const rddl_simulator& simulator, std::int64_t count, std::int64_t horizon)
     : simulator_(simulator),
-      batch_(batch_of(simulator, count, horizon)),
+      batch_(batch_of_lanes(simulator, count, horizon)),
       sources_(static_cast<std::size_t>(count)),
       limits_(sources_.size()),
       rewards_(sources_.size()),
@@ -33,11 +29,10 @@ Futures::Futures(const rddl_simulator& simulator, std::int64_t count, std::int64
       running_(sources_.size()),
       cut_(sources_.size()) {}
 
-void Futures::begin(const rddl_batch* from, std::int64_t place,
-                    std::span<const std::uint64_t> streams) {
-    std::ranges::fill(sources_, place);
-    require_done(simulator_,
-                 simulator_.copy_environments(batch_.get(), 0, count(), from, sources_.data()));
+void Futures::begin(const Origin& origin, std::span<const std::uint64_t> streams) {
+    for (std::size_t k = 0; k < sources_.size(); ++k) sources_[k] = origin.place(streams[k]);
+    require_done(simulator_, simulator_.copy_environments(batch_.get(), 0, count(), origin.batch,
+                                                          sources_.data()));
     require_done(simulator_, simulator_.set_seeds(batch_.get(), 0, count(), streams.data()));
     look_at_causes();
     std::ranges::fill(returns_, 0.0);

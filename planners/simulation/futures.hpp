@@ -2,6 +2,7 @@
 // its own.
 #pragma once
 
+#include "planners/simulation/origin.hpp"
 #include "solvers/batches/batch.hpp"
 
 #include <rddl/simulator.h>
@@ -15,14 +16,18 @@
 
 namespace rddlc::planners {
 
+// A batch that is stepped by one thread. `horizon` is as in batches: 0: the instance's,
+// RDDL_NO_HORIZON: none.
+solvers::BatchHandle batch_of_lanes(const rddl_simulator& simulator, std::int64_t count,
+                                    std::int64_t horizon);
+
 class Futures {
   public:
-    // `horizon` is as in batches: 0: the instance's, RDDL_NO_HORIZON: none.
+    // The horizon is that of batches.
     Futures(const rddl_simulator& simulator, std::int64_t count, std::int64_t horizon);
 
-    // All begin where environment `place` of the batch stands; the k-th has the stream of
-    // streams[k].
-    void begin(const rddl_batch* from, std::int64_t place, std::span<const std::uint64_t> streams);
+    // All begin in environments of the origin; the k-th has the stream of streams[k].
+    void begin(const Origin& origin, std::span<const std::uint64_t> streams);
     // The k-th goes on from states[k], after so many steps; those of lanes that are not wanted are
     // any that the problem has.
     void place(const std::byte* states, std::span<const std::int64_t> steps);
@@ -31,6 +36,11 @@ class Futures {
     void set_limit(std::size_t k, std::int64_t steps) {
         limits_[k] = steps;
         next_limit_ = std::min(next_limit_, steps);
+    }
+    // After place(): the k-th has the value that lane from[k] has. Lanes that are named in `from`
+    // are their own source.
+    void take_values(std::span<const std::uint32_t> from) {
+        for (std::size_t k = 0; k < from.size(); ++k) returns_[k] = returns_[from[k]];
     }
     // A record for each.
     void step(const std::byte* actions);

@@ -2,9 +2,6 @@
 #include "planners/uct/uct.hpp"
 
 #include "planners/simulation/random_stream.hpp"
-#include "support/failure.hpp"
-
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -37,20 +34,9 @@ constexpr double least_tried = 0.2;
 constexpr std::size_t decision_share = 16;
 constexpr std::size_t kept_share = 64;
 
-FiniteActions finite_actions(const rddl_simulator& simulator, int most) {
-    const solvers::ActionSpace space = solvers::action_space(simulator);
-    if (auto actions = FiniteActions::of(simulator, space, static_cast<std::size_t>(most)))
-        return std::move(*actions);
-    const rddl_problem& problem = *simulator.problem;
-    if (!space.reals.empty())
-        throw Failure(fmt::format("plan:uct needs finitely many actions, and '{}' of {} ({}) is "
-                                  "any number",
-                                  space.names[static_cast<std::size_t>(space.reals.front().column)],
-                                  problem.instance, problem.domain),
-                      "take plan:cem");
-    throw Failure(fmt::format("plan:uct takes at most {} actions, and {} ({}) has more", most,
-                              problem.instance, problem.domain),
-                  "take plan:cem, or allow more with actions=N");
+std::optional<FiniteActions> finite_actions(const rddl_simulator& simulator, int most) {
+    return FiniteActions::of(simulator, solvers::action_space(simulator),
+                             static_cast<std::size_t>(most));
 }
 
 std::int64_t affordable_lanes(const UctOptions& options, std::int64_t wanted) {
@@ -92,12 +78,16 @@ std::int64_t leaf_lanes(const UctOptions& options, Initial initial, std::size_t 
 
 }  // namespace
 
+bool Uct::can_list_actions(const rddl_simulator& simulator, const UctOptions& options) {
+    return finite_actions(simulator, options.actions).has_value();
+}
+
 Uct::Uct(const PlannerContext& context, const UctOptions& options)
     : simulator_(context.simulator),
       options_(options),
       state_size_(static_cast<std::size_t>(simulator_.problem->state_size)),
       action_size_(static_cast<std::size_t>(simulator_.problem->action_size)),
-      actions_(finite_actions(simulator_, options.actions)),
+      actions_(finite_actions(simulator_, options.actions).value()),
       initial_(initial_of(context, options, actions_.count())),
       trees_(simulator_, affordable_lanes(options, options.lanes), context.horizon),
       continuations_(simulator_, leaf_lanes(options, initial_, actions_.count()), context.horizon,
@@ -145,8 +135,8 @@ void Uct::choose_policy(const DecisionPoint& point, RandomStream& stream, Budget
     }
 }
 
-void Uct::add_edges(NodeId node, const rddl_batch* batch, std::int64_t place) {
-    actions_.find_legal(batch, place, legal_);
+void Uct::add_edges(NodeId node, const Origin& origin) {
+    actions_.find_legal(origin, legal_);
     for (std::size_t a = 0; a < actions_.count(); ++a)
         if (legal_[a]) tree().add_edge(node, static_cast<std::uint32_t>(a));
 }
@@ -170,8 +160,8 @@ void Uct::choose_memory(const DecisionPoint& point) {
 }
 
 bool Uct::open_root(const DecisionPoint& point, RandomStream& stream, BudgetMeter& meter) {
-    solvers::require_done(simulator_,
-                          simulator_.get_state(point.batch, point.place, 1, states_.data()));
+    solvers::require_done(simulator_, simulator_.get_state(point.origin.batch, point.origin.first,
+                                                           1, states_.data()));
     least_ = std::numeric_limits<double>::infinity();
     most_ = -least_;
     if (is_determinised()) choose_lookahead(meter);
@@ -184,7 +174,7 @@ bool Uct::open_root(const DecisionPoint& point, RandomStream& stream, BudgetMete
     }
     root_ = tree().node_of(states_.data(), step_);
     new_nodes_.assign(1, root_);
-    add_edges(root_, point.batch, point.place);
+    add_edges(root_, point.origin);
     memory_->leaf_depth = end_ - step_;
     const auto edges = static_cast<std::int64_t>(tree().node(root_).edge_count);
     if (!meter.has_room(edges, 0)) return false;
@@ -265,7 +255,7 @@ EdgeId Uct::choose_by_prior(const Node& node) const {
 
 bool Uct::run_trials(const DecisionPoint& point, RandomStream& stream, BudgetMeter& meter) {
     for (std::uint64_t& each : streams_) each = stream.bits();
-    trees_.begin(point.batch, point.place, streams_);
+    trees_.begin(point.origin, streams_);
     new_nodes_.clear();
     for (Trial& trial : trials_) {
         trial.node = root_;
@@ -332,7 +322,7 @@ void Uct::follow(std::size_t k, RandomStream& stream, std::int64_t step) {
         } else {
             next = tree().node_of(state, step);
             if (!is_determinised())  // otherwise it knows what is legal
-                add_edges(next, trees_.batch(), static_cast<std::int64_t>(k));
+                add_edges(next, {trees_.batch(), static_cast<std::int64_t>(k)});
             new_nodes_.push_back(next);
         }
     }

@@ -28,6 +28,8 @@ inline constexpr std::size_t later_draws = 4;
 class Uct : public Planner {
   public:
     Uct(const PlannerContext& context, const UctOptions& options);
+    // Whether the problem has no more actions than options allow.
+    static bool can_list_actions(const rddl_simulator& simulator, const UctOptions& options);
     void decide(const DecisionPoint& point, std::byte* action, Explanation* explanation) override;
 
   private:
@@ -70,8 +72,8 @@ class Uct : public Planner {
     EdgeId choose_by_prior(const Node& node) const;
     // The deviation of values that counts as much as a lack of trials, at that node.
     double bonus(const Node& node) const;
-    // Its actions, where environment `place` of the batch stands.
-    void add_edges(NodeId node, const rddl_batch* batch, std::int64_t place);
+    // The actions that are legal there.
+    void add_edges(NodeId node, const Origin& origin);
     bool value_new_nodes(const DecisionPoint& point, RandomStream& stream, BudgetMeter& meter,
                          std::size_t draws);
     // The priors of new nodes by the policy's logits, or by its action alone.

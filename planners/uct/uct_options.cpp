@@ -14,11 +14,13 @@ solvers::OptionTable<UctOptions> make_uct_table() {
         "That plays on from the leaves of the tree (no-op or random, whichever has the greater "
         "return)");
     solvers::OptionTable<UctOptions> own = {
+        particles_option<UctOptions>(),
         number_option<UctOptions, int>(
             {"lanes", "lanes", "N", "Trials side by side (32)"},
             [](auto& o) -> auto& { return o.lanes; }, 1, 1 << 16),
         number_option<UctOptions, int>(
-            {"actions", "actions", "N", "A problem with more actions than this is refused (4096)"},
+            {"actions", "actions", "N",
+             "Up to so many joint actions are all tried; others are drawn (4096)"},
             [](auto& o) -> auto& { return o.actions; }, 2, 1 << 20),
         number_option<UctOptions, double>(
             {"exploration", "exploration", "C",
@@ -30,6 +32,13 @@ solvers::OptionTable<UctOptions> make_uct_table() {
              "0: "
              "all (4)"},
             [](auto& o) -> auto& { return o.outcomes; }, 0.0, 1e9),
+        number_option<UctOptions, double>(
+            {"width", "width", "K",
+             "Where actions are drawn, after n trials of a node K * n^widening are tried (1)"},
+            [](auto& o) -> auto& { return o.width; }, 0.01, 1e9),
+        number_option<UctOptions, double>(
+            {"widening", "widening", "A", "The exponent of width (0.5)"},
+            [](auto& o) -> auto& { return o.widening; }, 0.0, 1.0),
         number_option<UctOptions, int>(
             {"lookahead", "lookahead", "N",
              "States that a search in the determinised problem may meet, beginning with that of "

@@ -39,7 +39,8 @@ class Planner:
     def act(self, observation: Any = None, env: Wrapped | None = None) -> Any:
         """Returns the action, as env.step takes it, for the present state of the planner's environment,
         or of another one of the same problem, also within wrappers, which may stand in the first place
-        too. A planner uses the state, not the observation. Call it once before each step."""
+        too. A planner uses the state, not the observation; of a problem that is observed in part, the
+        observations of the env since its reset. Call it once before each step."""
         acting = self._acting_env(observation, env)
         batch = acting._batch
         self._native.plan(batch, self._acted_in is not batch)
@@ -122,7 +123,7 @@ class Rollout(Planner):
 
 
 class UCT(Planner):
-    """A tree of actions and of what they lead to, built by trials, for finitely many actions.
+    """A tree of actions and of what they lead to, built by trials, for any kind of actions.
 
     """
 

@@ -90,10 +90,20 @@ class Planners(unittest.TestCase):
         with self.assertRaisesRegex(rddlc.Error, "in which env it acts"):
             rddlc.plan.CEM(problem, steps=1).act()
         with self.assertRaisesRegex(rddlc.Error, r"(?s)hides from policies.*in Python, with cheat=True"):
-            rddlc.plan.CEM(rddlc.Problem(*MAZE))
-        with self.assertRaisesRegex(rddlc.Error, "finitely many actions"):
-            rddlc.plan.UCT(rddlc.Problem(*CAR)).evaluate(1)
+            rddlc.plan.Gradient(rddlc.Problem(*MAZE))
         self.assertIn("t_maze", repr(rddlc.plan.CEM(rddlc.Problem(*MAZE), cheat=True)))
+
+    def test_a_hidden_state_is_found_by_particles(self) -> None:
+        env = rddlc.make(*MAZE)
+        planner = rddlc.plan.UCT(env, steps=2000)
+        for seed in (1, 2, 3):
+            observation, _ = env.reset(seed=seed)
+            total, done = 0.0, False
+            while not done:
+                observation, reward, terminated, truncated, _ = env.step(planner.act(observation))
+                total += reward
+                done = terminated or truncated
+            self.assertAlmostEqual(total, 4)
 
     def test_documentation_lists_all_options(self) -> None:
         for planner in (rddlc.plan.CEM, rddlc.plan.UCT, rddlc.plan.Rollout):

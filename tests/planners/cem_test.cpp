@@ -33,6 +33,14 @@ TEST(Cem, LooksAsFarAsNeeded) {
     EXPECT_EQ(run(car(), "plan:cem,iterations=8,horizon=20").thought(0, 0).depth, 20);
 }
 
+// Each wheel of the lock is a state that was not met before; nothing else says that it is good.
+TEST(Cem, FindsWhatNoNoiseFinds) {
+    const Played plan = run(lock(), "plan:cem,iterations=8");
+    EXPECT_GT(plan.mean(), 0.85);
+    EXPECT_LE(plan.mean(), 1 - 11 * 0.01 + 1e-9);
+    EXPECT_LE(run(lock(), "plan:cem,iterations=8,horizon=11").mean(), 0);
+}
+
 // With stream to draw, what is chosen is compared by many draws; no-op is always among them.
 TEST(Cem, KnowsWhatNoopIsWorth) {
     const Played plan = run(network(), "plan:cem,iterations=2,population=64");
@@ -117,6 +125,33 @@ TEST(Plans, AreFitted) {
             EXPECT_EQ(middle.indices, drawn.indices);
         }
     }
+}
+
+// Every other plan departs from what is likeliest now and then, and from no-op where no value is
+// likelier.
+TEST(Plans, AreSometimesUsual) {
+    constexpr std::size_t plans = 1000, steps = 50;
+    const solvers::ActionSpace space = solvers::action_space(lock());
+    Distribution distribution(space, {});
+    distribution.restart(steps);
+    Population population(plans, space.real_count(), space.index_count());
+    population.set_steps(steps);
+    const double correlation = 0;
+    PlanNoise noise(plans, space.real_count(), space.index_count(), {&correlation, 1});
+    RandomStream stream(1, 2, 3);
+    distribution.draw(stream, noise, population);
+    double departures[2] = {0, 0};
+    std::size_t rare = 0;
+    for (std::size_t p = 0; p < plans; ++p) {
+        std::size_t count = 0;
+        for (std::size_t t = 0; t < steps; ++t) count += population.indices(t, 0)[p] != 0;
+        departures[p % 2] += static_cast<double>(count);
+        rare += p % 2 == 1 && count > 0 && count <= 2;
+    }
+    EXPECT_NEAR(departures[0] / (plans * steps / 2), 0.75, 0.01);
+    // The mean of 2^-7u is 127 / 128 / (7 log 2).
+    EXPECT_NEAR(departures[1] / (plans * steps / 2), 0.75 * 0.2045, 0.03);
+    EXPECT_GT(rare, 50u);
 }
 
 TEST(RandomStream, HasMeanZeroAndDeviationOne) {

@@ -115,8 +115,8 @@ std::vector<std::pair<std::string, std::vector<std::byte>>> decide_twice(std::in
         };
         std::vector<std::byte> action(static_cast<std::size_t>(simulator.problem->action_size));
         Explanation explanation;
-        planner.decide({batch.get(), 0, 0, step, horizon - step, horizon, &stops}, action.data(),
-                       &explanation);
+        planner.decide({{batch.get(), 0}, 0, 0, step, horizon - step, horizon, &stops},
+                       action.data(), &explanation);
         all.emplace_back(explanation.candidates.at(0).name, action);
         const rddl_transition out{};
         solvers::require_done(simulator, simulator.step(batch.get(), action.data(), &out));
@@ -151,7 +151,7 @@ TEST(Gradient, ComparesAPlanOfManyStepsAfterAStop) {
         };
         std::vector<std::byte> action(static_cast<std::size_t>(target().problem->action_size));
         Explanation explanation;
-        planner.decide({batch.get(), 0, 0, 0, 10, 10, &stops}, action.data(), &explanation);
+        planner.decide({{batch.get(), 0}, 0, 0, 0, 10, 10, &stops}, action.data(), &explanation);
         EXPECT_GT(explanation.iterations, 0);
         EXPECT_EQ(explanation.depth, replan == 1 ? 4 : 10);
     }
@@ -175,7 +175,7 @@ TEST(Gradient, EndsADecisionOfALongPlanInTime) {
     const solvers::BatchHandle batch = solvers::create_batch(simulator, batch_options);
     std::vector<std::byte> action(static_cast<std::size_t>(simulator.problem->action_size));
     const auto begin = std::chrono::steady_clock::now();
-    planner.decide({batch.get(), 0, 0, 0, 100, 100}, action.data(), nullptr);
+    planner.decide({{batch.get(), 0}, 0, 0, 0, 100, 100}, action.data(), nullptr);
     const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
     EXPECT_LT(took.count(), 1.5);  // a busy machine sleeps longer
 }

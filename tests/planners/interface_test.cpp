@@ -199,19 +199,21 @@ TEST(PlannerBudgets, SecondsEndADecision) {
 
 TEST(PlannerSight, OfHiddenStatesHasToBeAllowed) {
     try {
-        planner_policy(maze(), "plan:cem", settings_of(maze()));
+        planner_policy(maze(), "plan:gradient", settings_of(maze()));
         FAIL() << "it took a problem that is observed in part";
     } catch (const Failure& failure) {
         EXPECT_EQ(std::string(failure.what()),
-                  "plan:cem needs the state, which t_maze_1 (t_maze) hides from policies");
+                  "plan:gradient needs the state, which t_maze_1 (t_maze) hides from policies");
         EXPECT_EQ(failure.hint,
-                  "let it look at the state with --cheat or plan:cem,cheat=yes; in Python, with "
-                  "cheat=True");
+                  "let it look at the state with --cheat or plan:gradient,cheat=yes; in Python, "
+                  "with cheat=True");
     }
     PolicySettings settings = settings_of(maze());
     settings.cheat = true;
     EXPECT_EQ(planner_policy(maze(), "plan:cem", settings).name, "plan:cem");
-    EXPECT_EQ(run(maze(), "plan:cem,cheat=yes,steps=10").summary.episodes, 1);
+    const Played plan = run(maze(), "plan:cem,cheat=yes,steps=10");
+    EXPECT_EQ(plan.summary.episodes, 1);
+    EXPECT_FALSE(plan.thought(0, 0).particles);
 }
 
 }  // namespace

@@ -3,11 +3,13 @@
 
 #include "planner_coin.h"
 #include "planner_ladder.h"
+#include "planner_lock.h"
 #include "planner_mountain_car.h"
 #include "planner_network.h"
 #include "planner_reservoir.h"
 #include "planner_t_maze.h"
 #include "planner_target.h"
+#include "planner_tiger.h"
 #include "planners/planner/planner_policy.hpp"
 #include "solvers/evaluation/episodes.hpp"
 #include "solvers/evaluation/summary.hpp"
@@ -31,6 +33,12 @@ inline const rddl_simulator& coin() {
 }
 inline const rddl_simulator& ladder() {
     return *rddl_simulator_ladder_ladder_1();
+}
+inline const rddl_simulator& lock() {
+    return *rddl_simulator_lock_lock_1();
+}
+inline const rddl_simulator& tiger() {
+    return *rddl_simulator_tiger_tiger_1();
 }
 inline const rddl_simulator& car() {
     return *rddl_simulator_mountain_car_mountain_car_1();

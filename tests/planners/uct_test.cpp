@@ -289,17 +289,6 @@ TEST(Uct, WidensOutcomes) {
     EXPECT_GT(narrow.thought(0, 0).iterations, 0);
 }
 
-TEST(Uct, RefusesProblemsOfRealActions) {
-    try {
-        run(reservoir(), "plan:uct");
-        FAIL() << "it took a real action";
-    } catch (const Failure& failure) {
-        EXPECT_NE(std::string(failure.what()).find("plan:uct needs finitely many actions"),
-                  std::string::npos);
-        EXPECT_EQ(failure.hint, "take plan:cem");
-    }
-}
-
 TEST(Uct, TriesActionsByThePriorsOfAPolicy) {
     const Played by_action = run(network(), "plan:uct,iterations=200,policy=noop");
     const Played by_priors =

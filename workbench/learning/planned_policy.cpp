@@ -45,6 +45,7 @@ std::string Explanations::line_of(const planners::Explanation& explanation) cons
         fmt::format(R"("episode":{},"step":{},"depth":{},"iterations":{},"steps":{},"chosen":{},)",
                     explanation.episode, explanation.step, explanation.depth,
                     explanation.iterations, explanation.steps, explanation.chosen);
+    if (explanation.particles) line += fmt::format(R"("particles":{},)", *explanation.particles);
     if (!explanation.note.empty())
         line += fmt::format(R"("note":{},)", json_line(nlohmann::ordered_json(explanation.note)));
     line += R"("candidates":[)";
