@@ -10,6 +10,7 @@
 #include <map>
 #include <set>
 #include <span>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -187,8 +188,9 @@ class BlockCost {
         while (arounds_[place].level > level) place = arounds_[place].outer;
         return place;
     }
+    // Loops over the same objects share a place unless one of them takes several at once.
     Place inside(Place place, VariableId variable, double times) {
-        const auto [found, is_new] = inner_.try_emplace({place, variable}, arounds_.size());
+        const auto [found, is_new] = inner_.try_emplace({place, variable, times}, arounds_.size());
         if (is_new) {
             const Around& around = arounds_[place];
             arounds_.push_back({place, variable, around.level + 1, around.evaluations * times});
@@ -220,7 +222,7 @@ class BlockCost {
     const Program& program_;
     std::span<const Properties> properties_;
     std::vector<Around> arounds_ = {{outside, {}, 0, 1}};
-    std::map<std::pair<Place, VariableId>, Place> inner_;
+    std::map<std::tuple<Place, VariableId, double>, Place> inner_;
     std::map<std::pair<NodeId, Place>, Levels> levels_;
     std::set<std::pair<NodeId, Place>> paid_;
     std::map<LocalId, Levels> levels_of_local_;

@@ -1,6 +1,7 @@
 #include "planners/cem/cem.hpp"
 
 #include "planners/simulation/mean_and_error.hpp"
+#include "support/failure.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -70,6 +71,11 @@ Cem::Cem(const PlannerContext& context, const CemOptions& options)
         base_.emplace(simulator_, *context.base, futures_.count());
         recorder_.emplace(simulator_, *context.base, 1);
         recording_.emplace(simulator_, 1, context.horizon);
+    }
+    if (options.tail == Tail::Value) {
+        if (!context.base)
+            throw Failure("tail=value needs a policy: policy=POLICY", {}, usage_error);
+        tail_.emplace(*context.base, futures_.count(), "plan:cem,tail=value");
     }
     default_numbers_.resize(static_cast<std::size_t>(space_.real_count()));
     default_indices_.resize(static_cast<std::size_t>(space_.index_count()));
@@ -198,6 +204,7 @@ std::int64_t Cem::play(const DecisionPoint& point, std::span<const std::uint32_t
         futures_.step(actions_.data());
         meter.add_steps(futures_.stepped());
     }
+    if (tail_) tail_->add(futures_, point.step + steps);
     return steps;
 }
 
@@ -303,7 +310,7 @@ void Cem::decide(const DecisionPoint& point, std::byte* action, Explanation* exp
     const auto lanes = static_cast<std::int64_t>(lanes_);
     const std::int64_t played = lanes + (base_ ? 1 : 0);  // with the policy's plan
     const auto comparison = [&](std::int64_t depth) {     // its steps
-        const bool has_tail = base_ && point.left != no_end;
+        const bool has_tail = base_ && !tail_ && point.left != no_end;
         return compares ? lanes * (has_tail ? point.left : depth) : 0;
     };
     std::int64_t depth = 0;

@@ -16,6 +16,7 @@
 #include "planners/simulation/futures.hpp"
 #include "planners/simulation/legal_actions.hpp"
 #include "planners/simulation/random_stream.hpp"
+#include "planners/simulation/value_tail.hpp"
 #include "solvers/spaces/actions.hpp"
 
 #include <cstddef>
@@ -99,6 +100,7 @@ class Cem : public Planner {
     LegalActions legal_;
     std::optional<BasePolicy> base_, recorder_;  // of all lanes; of one environment
     std::optional<Futures> recording_;
+    std::optional<ValueTail> tail_;  // what follows plans, where it is by values
     std::optional<NoveltySearch> novelty_search_;  // where it was needed before
     EpisodeMemories<Memory> memories_;
     Distribution fresh_;  // of a new episode

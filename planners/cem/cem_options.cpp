@@ -52,6 +52,12 @@ solvers::OptionTable<O> make_cem_table() {
         number_option<O, double>(
             {"temperature", "temperature", "T", "Of mppi, in deviations of the returns (0.2)"},
             [](auto& o) -> auto& { return o.temperature; }, 1e-6, 1e6),
+        solvers::choice_option<O, Tail>(
+            {"tail", "tail", "HOW",
+             "What follows the horizon, with a policy: policy (default): it plays on when the "
+             "best plans are compared; value: the values that PPO has learned"},
+            [](auto& o) -> auto& { return o.tail; },
+            {{"policy", Tail::Policy}, {"value", Tail::Value}}),
     };
     table.insert(table.end(), std::make_move_iterator(own.begin()),
                  std::make_move_iterator(own.end()));

@@ -10,6 +10,9 @@
 namespace rddlc::planners {
 
 enum class Weights { Elites, Mppi };
+// What follows the horizon of plans: the policy plays on in the last comparison, or its values
+// count in all of them.
+enum class Tail { Policy, Value };
 
 struct CemOptions : CommonOptions {
     int population = 256;
@@ -21,6 +24,7 @@ struct CemOptions : CommonOptions {
     int kept = 8;                  // of the best plans, that come again
     Weights weights = Weights::Elites;
     double temperature = 0.2;  // of mppi, in deviations of the returns
+    Tail tail = Tail::Policy;  // with a policy
 };
 
 // The correlations of noise, for one plan after the other.

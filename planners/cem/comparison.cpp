@@ -16,7 +16,7 @@ constexpr double doubt = 1;
 
 // After the plans comes what the policy does.
 void Cem::play_tail(const DecisionPoint& point, std::int64_t steps, BudgetMeter& meter) {
-    if (!base_ || point.left == no_end) return;
+    if (!base_ || tail_ || point.left == no_end) return;
     std::ranges::fill(by_policy_, 1);
     for (std::int64_t t = steps; t < point.left && futures_.any_running(); ++t) {
         if (meter.is_late()) return;

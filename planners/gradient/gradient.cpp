@@ -344,7 +344,9 @@ void Gradient::write_first(const Candidate& candidate, const Memory& memory,
     float* const row = rows_.data();
     if (candidate.kind == Candidate::Kind::Plan)
         parameters_.write(
-            std::span(memory.plans[candidate.plan].parameters).first(parameters_.count()),
+            std::span(memory.plans[candidate.plan].parameters)
+                .subspan(static_cast<std::size_t>(memory.steps_made) * parameters_.count(),
+                         parameters_.count()),
             candidate.threshold, row);
     else
         std::ranges::copy(space_.defaults, row);
@@ -356,16 +358,21 @@ void Gradient::write_first(const Candidate& candidate, const Memory& memory,
                             single_repair_);
 }
 
-// A step is made. Before the next search each ascent gets the best plan, and the worse half of the
-// plans becomes the best one, disturbed.
+// A step is made. Before the next search plans move on to the present, and end with copies of their
+// last step. Each ascent gets the best plan, and the worse half of the plans becomes the best one,
+// disturbed.
 void Gradient::move_on(Memory& memory, RandomStream& stream) const {
-    const auto count = static_cast<std::ptrdiff_t>(parameters_.count());
-    for (AscendingPlan& plan : memory.plans) {
-        std::vector<double>& all = plan.parameters;
-        std::shift_left(all.begin(), all.end(), count);
-        if (std::ssize(all) > count) std::copy_n(all.end() - 2 * count, count, all.end() - count);
-    }
+    ++memory.steps_made;
     if (memory.steps_left > 0) return;
+    const std::size_t count = parameters_.count(), rows = static_cast<std::size_t>(horizon_);
+    for (AscendingPlan& plan : memory.plans)
+        for (std::size_t t = 0; t < rows; ++t) {
+            const std::size_t from =
+                std::min(t + static_cast<std::size_t>(memory.steps_made), rows - 1);
+            std::copy_n(plan.parameters.data() + from * count, count,
+                        plan.parameters.data() + t * count);
+        }
+    memory.steps_made = 0;
     const auto& best = memory.plans.front().parameters;
     for (std::size_t p = 1; p < memory.plans.size(); ++p) {
         const bool is_first = p < ascents_.size();

@@ -59,6 +59,11 @@ class Futures {
     bool is_cut(std::size_t k) const { return cut_[k] != 0; }
     // The discounted sum since the beginning; -inf after a fault or a reward that is not finite.
     double value(std::size_t k) const { return returns_[k]; }
+    // Adds what is expected to follow, in lanes that still run; discounted as the next step is.
+    void add_to_running(std::span<const double> values) {
+        for (std::size_t k = 0; k < returns_.size(); ++k)
+            if (running_[k]) returns_[k] += discount_ * values[k];
+    }
 
   private:
     static constexpr std::int64_t no_limit = std::numeric_limits<std::int64_t>::max();

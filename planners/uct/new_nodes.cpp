@@ -22,16 +22,16 @@ constexpr float likeliest_share = 0.5f;
 bool Uct::value_new_nodes(const DecisionPoint& point, RandomStream& stream, BudgetMeter& meter,
                           std::size_t draws) {
     const bool is_done = is_determinised() ? value_by_determinisation(point, stream, meter)
+                         : state_values_   ? value_by_network(meter)
                                            : value_by_policy(point, stream, meter, draws);
     return is_done && (options_.policy.empty() || find_priors(point, stream, meter));
 }
 
-bool Uct::find_priors(const DecisionPoint& point, RandomStream& stream, BudgetMeter& meter) {
-    if (!priors_) return find_preferred(point, stream, meter);
+template <class Judge>
+bool Uct::judge_new_nodes(BudgetMeter& meter, const Judge& judge) {
     const auto lanes = static_cast<std::size_t>(judged_->count());
     judged_states_.resize(lanes * state_size_);
     judged_steps_.resize(lanes);
-    prior_rows_.resize(lanes * actions_.count());
     for (std::size_t first = 0; first < new_nodes_.size(); first += lanes) {
         if (meter.is_late()) return false;
         const std::size_t count = std::min(lanes, new_nodes_.size() - first);
@@ -43,12 +43,36 @@ bool Uct::find_priors(const DecisionPoint& point, RandomStream& stream, BudgetMe
         solvers::require_done(
             simulator_, simulator_.set_state(judged_->batch(), 0, static_cast<std::int64_t>(count),
                                              judged_states_.data(), nullptr));
-        priors_(judged_->batch(), std::span(judged_steps_).first(count), prior_rows_.data());
-        for (std::size_t k = 0; k < count; ++k)
-            set_priors(tree().node(new_nodes_[first + k]),
-                       prior_rows_.data() + k * actions_.count());
+        judge(first, count, std::span<const std::int64_t>(judged_steps_).first(count));
     }
     return true;
+}
+
+bool Uct::value_by_network(BudgetMeter& meter) {
+    judged_values_.resize(static_cast<std::size_t>(judged_->count()));
+    return judge_new_nodes(
+        meter, [&](std::size_t first, std::size_t count, std::span<const std::int64_t> steps) {
+            state_values_(judged_->batch(), steps, judged_values_.data());
+            for (std::size_t k = 0; k < count; ++k) {
+                Node& node = tree().node(new_nodes_[first + k]);
+                node.is_open = true;
+                node.draws = 1;
+                node.value = judged_values_[k];
+                if (new_nodes_[first + k] == root_) note_return(node.value);
+            }
+        });
+}
+
+bool Uct::find_priors(const DecisionPoint& point, RandomStream& stream, BudgetMeter& meter) {
+    if (!priors_) return find_preferred(point, stream, meter);
+    prior_rows_.resize(static_cast<std::size_t>(judged_->count()) * actions_.count());
+    return judge_new_nodes(
+        meter, [&](std::size_t first, std::size_t count, std::span<const std::int64_t> steps) {
+            priors_(judged_->batch(), steps, prior_rows_.data());
+            for (std::size_t k = 0; k < count; ++k)
+                set_priors(tree().node(new_nodes_[first + k]),
+                           prior_rows_.data() + k * actions_.count());
+        });
 }
 
 // By logarithms of all actions, of which the node has some.

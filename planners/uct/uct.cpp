@@ -13,6 +13,8 @@ namespace rddlc::planners {
 namespace {
 
 constexpr std::int64_t first_depth = 40;
+// The same where new states are valued to the end of the episode, since the search ends with 0.
+constexpr std::int64_t value_depth = 200;
 // Steps of a lookahead in the determinised problem, at most.
 constexpr std::int64_t deepest_lookahead = 100;
 // A budget of steps lasts for so many lookaheads.
@@ -59,6 +61,15 @@ Initial initial_of(const UctOptions& options, std::size_t actions) {
     return may_determinise(options, actions) ? Initial::Determinised : Initial::Rollout;
 }
 
+solvers::StateValues values_of(const solvers::Policy& policy, std::int64_t lanes) {
+    if (policy.values) return policy.values(lanes);
+    throw Failure(fmt::format("plan:uct,initial=value needs a policy that estimates values, and "
+                              "'{}' does not",
+                              policy.name),
+                  "policies of 'rddl train ppo' without --recurrent do, where the problem is "
+                  "observed in full");
+}
+
 std::int64_t leaf_lanes(const UctOptions& options, std::size_t actions) {
     const auto each =
         static_cast<std::int64_t>(initial_of(options, actions) == Initial::Lookahead ? actions : 4);
@@ -92,10 +103,11 @@ Uct::Uct(const PlannerContext& context, const UctOptions& options)
     if (is_determinised()) typical_steps_.emplace(simulator_, actions_);
     if (context.base) {
         policies_.emplace_back(simulator_, *context.base, lanes);
-        if (context.base->priors) {
-            priors_ = context.base->priors(lanes, actions_.records());
-            judged_.emplace(simulator_, lanes, context.horizon);
-        }
+        if (context.base->priors) priors_ = context.base->priors(lanes, actions_.records());
+        if (initial_ == Initial::Value) state_values_ = values_of(*context.base, lanes);
+        if (priors_ || state_values_) judged_.emplace(simulator_, lanes, context.horizon);
+    } else if (initial_ == Initial::Value) {
+        throw Failure("plan:uct: initial=value needs a policy: policy=POLICY", {}, usage_error);
     } else {
         policies_.emplace_back(simulator_, solvers::noop_policy(simulator_), lanes);
         policies_.emplace_back(simulator_, solvers::random_policy(simulator_, options.seed), lanes);
@@ -139,7 +151,7 @@ void Uct::choose_memory(const DecisionPoint& point) {
     }
     memory_ = &*memory;
     step_ = point.step;
-    const std::int64_t depth = options_.horizon.value_or(first_depth);
+    const std::int64_t depth = options_.horizon.value_or(state_values_ ? value_depth : first_depth);
     end_ = point.left <= depth                      ? step_ + point.left
            : memory->end >= step_ + (depth + 1) / 2 ? std::min(memory->end, step_ + depth)
                                                     : step_ + depth;
@@ -337,8 +349,14 @@ void Uct::note_return(double value) {
 EdgeId Uct::best_edge() const {
     const Node& node = tree().node(root_);
     std::int32_t most = 0;
-    for (const Edge& edge : tree().edges(node)) most = std::max(most, edge.weight());
     EdgeId chosen = node.first_edge;
+    float likeliest = 0;  // is taken where there were no trials
+    for (const Edge& edge : tree().edges(node)) {
+        most = std::max(most, edge.weight());
+        if (edge.prior <= likeliest) continue;
+        likeliest = edge.prior;
+        chosen = tree().id_of(edge);
+    }
     double best = -std::numeric_limits<double>::infinity();
     for (const Edge& edge : tree().edges(node)) {
         if (edge.weight() == 0 || edge.weight() < least_tried * most || !(edge.value > best))

@@ -78,6 +78,11 @@ class Uct : public Planner {
                          std::size_t draws);
     // The priors of new nodes by the policy's logits, or by its action alone.
     bool find_priors(const DecisionPoint& point, RandomStream& stream, BudgetMeter& meter);
+    // As in AlphaZero: by the policy's value network alone.
+    bool value_by_network(BudgetMeter& meter);
+    // Places new nodes in judged_, some at a time, and calls judge(first, count, steps) for them.
+    template <class Judge>
+    bool judge_new_nodes(BudgetMeter& meter, const Judge& judge);
     bool find_preferred(const DecisionPoint& point, RandomStream& stream, BudgetMeter& meter);
     void set_priors(Node& node, const float* logarithms);
     bool value_by_determinisation(const DecisionPoint& point, RandomStream& stream,
@@ -113,7 +118,8 @@ class Uct : public Planner {
     std::vector<BasePolicy> policies_;           // that may play on
     std::size_t policy_ = 0;                     // that does
     solvers::ActionPriors priors_;               // of the user's policy; may be empty
-    std::optional<Futures> judged_;              // new nodes, for it
+    solvers::StateValues state_values_;          // of Initial::Value
+    std::optional<Futures> judged_;              // new nodes, for these two
     std::optional<TypicalSteps> typical_steps_;  // of Initial::Determinised
     std::size_t most_bytes_, most_kept_bytes_;   // of a memory: in a decision, and after it
     EpisodeMemories<Memory> memories_;
@@ -126,6 +132,7 @@ class Uct : public Planner {
     std::vector<std::byte> records_, states_, judged_states_;
     std::vector<std::int64_t> judged_steps_;
     std::vector<float> prior_rows_;
+    std::vector<double> judged_values_;
     std::vector<std::uint8_t> legal_;
     std::vector<NodeId> new_nodes_;
     // The requests to continuations, and the node and edge of each.

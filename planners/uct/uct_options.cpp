@@ -54,11 +54,13 @@ solvers::OptionTable<UctOptions> make_uct_table() {
             {"initial", "initial", "HOW",
              "A new state is valued by a search in the determinised problem (determinised; the "
              "default without a policy), by each of its actions and the policy after it "
-             "(lookahead; the default with a policy), or by the policy alone (rollout)"},
+             "(lookahead; the default with a policy), by the policy alone (rollout), or by the "
+             "values that PPO has learned (value)"},
             [](auto& o) -> auto& { return o.initial; },
             {{"determinised", Initial::Determinised},
              {"lookahead", Initial::Lookahead},
-             {"rollout", Initial::Rollout}}),
+             {"rollout", Initial::Rollout},
+             {"value", Initial::Value}}),
     };
     table.insert(table.end(), std::make_move_iterator(own.begin()),
                  std::make_move_iterator(own.end()));

@@ -8,7 +8,7 @@
 namespace rddlc::planners {
 
 enum class Backup { Max, Mean };
-enum class Initial { Determinised, Lookahead, Rollout };
+enum class Initial { Determinised, Lookahead, Rollout, Value };
 
 struct UctOptions : CommonOptions {
     int lanes = 32;            // trials side by side

@@ -40,6 +40,11 @@ using Actor = std::function<void(Decision&)>;
 using ActionPriors =
     std::function<void(rddl_batch* batch, std::span<const std::int64_t> steps, float* rows)>;
 
+// Estimates of what a policy still gets paid, in the states of a batch after so many steps of their
+// episodes: a number for each environment, in the problem's rewards.
+using StateValues =
+    std::function<void(rddl_batch* batch, std::span<const std::int64_t> steps, double* values)>;
+
 struct Policy {
     std::string name;
     std::uint64_t spaces;  // that it acts in (spaces_of); run_episodes refuses others
@@ -52,6 +57,8 @@ struct Policy {
     // nothing but its action. The policy must outlive them.
     std::function<ActionPriors(std::int64_t environments, std::span<const std::byte> actions)>
         priors = {};
+    // Its estimates in so many environments; empty where it has none. The policy must outlive them.
+    std::function<StateValues(std::int64_t environments)> values = {};
 };
 
 // Throws a Failure where the policy is of other spaces than those of the simulator.

@@ -62,7 +62,6 @@ Collector::Collector(const rddl_simulator& simulator, const PpoModel& model,
     for (auto* each : {&running_returns_, &sums_, &discounted_sums_}) each->resize(environments);
     discounts_.assign(environments, 1.0);
     feature_moments_.resize(environments * features);
-    return_moments_.resize(environments);
     seeds_.resize(environments);
     // The upper bound, so that nothing is allocated later.
     finished_.reserve(environments * static_cast<std::size_t>(options.rollout));
@@ -73,7 +72,6 @@ void Collector::begin_update(std::uint64_t seed, std::int64_t update) {
         seeds_[static_cast<std::size_t>(e)] = seed_of(seed, origin_ + first_ + e, update);
     require_done(simulator_, simulator_.set_seeds(batch_.get(), 0, count_, seeds_.data()));
     std::fill(feature_moments_.begin(), feature_moments_.end(), Moments{});
-    std::fill(return_moments_.begin(), return_moments_.end(), Moments{});
     finished_.clear();
     simulator_seconds_ = 0;
     if (update > 0) return;
@@ -192,7 +190,7 @@ void Collector::step(Experience& experience, std::int64_t t) {
         if (!std::isfinite(reward)) throw not_finite(e);
         experience.rewards[sample] = static_cast<float>(reward);
         running_returns_[e] = running_returns_[e] * gamma_ + reward;
-        return_moments_[e].add(running_returns_[e] - return_origin);
+        experience.so_far[sample] = static_cast<float>(running_returns_[e]);
         sums_[e] += reward;
         discounted_sums_[e] += discounts_[e] * reward;
         discounts_[e] *= simulator_.problem->discount;

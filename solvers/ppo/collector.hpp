@@ -39,10 +39,8 @@ class Collector {
     void collect(Experience& experience, std::uint64_t seed, std::int64_t update);
 
     // Since begin_update(), environment by environment: features about the normaliser's means as
-    // they are, and discounted returns about `return_origin`.
-    double return_origin = 0;
+    // they are.
     const std::vector<Moments>& feature_moments() const { return feature_moments_; }
-    const std::vector<Moments>& return_moments() const { return return_moments_; }
     const std::vector<FinishedEpisode>& finished() const { return finished_; }
     std::int64_t repaired() const { return distribution_.repaired(); }
     double simulator_seconds() const { return simulator_seconds_; }
@@ -79,7 +77,7 @@ class Collector {
     std::vector<std::uint8_t> terminated_, truncated_, causes_;
     std::vector<std::int64_t> steps_;  // of the episode
     std::vector<double> running_returns_, sums_, discounted_sums_, discounts_;
-    std::vector<Moments> feature_moments_, return_moments_;
+    std::vector<Moments> feature_moments_;
     std::vector<FinishedEpisode> finished_;
     std::vector<std::uint64_t> seeds_;
     double simulator_seconds_ = 0;

@@ -21,6 +21,7 @@ struct Experience {
     std::vector<std::int32_t> indices;
     std::vector<std::uint8_t> masks;
     std::vector<float> rewards;    // as they are; scaled by the trainer
+    std::vector<float> so_far;     // discounted sums of the episode's rewards up to each step
     std::vector<float> novelties;  // of what each step has seen (curiosity.hpp)
     std::vector<float> values, next_values, advantages, returns;
     std::vector<std::uint8_t> ends;
@@ -41,7 +42,7 @@ struct Experience {
         indices.resize(rows(model.actions.index_count()));
         masks.resize(rows(model.actions.mask_size()));
         spreads.assign(samples, 1.0f);
-        for (auto* each : {&log_probabilities, &rewards, &novelties, &values, &next_values,
+        for (auto* each : {&log_probabilities, &rewards, &so_far, &novelties, &values, &next_values,
                            &advantages, &returns})
             each->resize(samples);
         ends.resize(samples);

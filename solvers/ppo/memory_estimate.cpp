@@ -51,7 +51,7 @@ double networks(const PpoModel& model, const PpoOptions& options) {
 double bytes_of_step(const PpoModel& model, const PpoOptions& options) {
     const ActionSpace& actions = model.actions;
     const double segment = bytes_of(model.memory.padded_units + 1);  // with its place in the order
-    constexpr int numbers = 6;                                       // rewards, values and the like
+    constexpr int numbers = 8;                                       // rewards, values and the like
     return bytes_of(model.input_row() + numbers) + bytes_of_choice(actions) + 1 +
            sizeof(FinishedEpisode) + segment / longest_segment(options);
 }
@@ -65,7 +65,7 @@ double bytes_of_environment(const rddl_simulator& simulator, const PpoModel& mod
         bytes_of(actions.column_count + model.policy.padded_outputs() + model.memory.padded_units);
     if (model.noisy_units() > 0)
         bytes += bytes_of(model.deviation_count() + 2.0 * actions.real_count() + 1);
-    bytes += sizeof(Moments) + 7 * sizeof(double) + 3.0 + bytes_of_distribution(simulator, actions);
+    bytes += 7 * sizeof(double) + 3.0 + bytes_of_distribution(simulator, actions);
     return bytes + static_cast<double>(bytes_per_environment(simulator));
 }
 

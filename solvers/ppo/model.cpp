@@ -121,7 +121,7 @@ void make_parameters(PpoModel& model, const PpoOptions& options) {
     // A deviation that is a sum over units is divided so that the sum has about this deviation.
     const double parts = std::max(model.noisy_units(), 1);
     std::fill_n(model.parameters.data() + model.deviations_begin(), model.deviation_count(),
-                static_cast<float>(options.log_deviation - 0.5 * std::log(parts)));
+                static_cast<float>(options.log_deviation.value_or(0) - 0.5 * std::log(parts)));
 }
 
 PpoModel make_model(const ObservationSpace& observations, const ActionSpace& actions,

@@ -11,11 +11,13 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 namespace rddlc::solvers {
 
 struct PpoModel {
+    std::string solver = "ppo";  // the learner; "drp" trains no values
     ObservationSpace observations;
     ActionSpace actions;
     Noise noise = Noise::Ar1;
@@ -29,6 +31,9 @@ struct PpoModel {
     Network policy, value;
     Gru memory;  // sees the features
     Normaliser normaliser{0};
+    // Values estimate the sum of later rewards / value_scale by the discount value_discount; 0: the
+    // scale is not known, and they mean nothing to others than the training.
+    double value_scale = 0, value_discount = 1;
     // The policy's, the value's, the logarithms of the reals' deviations (those of noise that
     // depends on the state for each of noisy_units()), and the memory's.
     std::vector<float> parameters;

@@ -1,6 +1,7 @@
 #include "solvers/ppo/option_table.hpp"
 
 #include "solvers/evaluation/threads.hpp"
+#include "solvers/options/network_options.hpp"
 
 namespace rddlc::solvers {
 
@@ -43,29 +44,6 @@ Option size_option(OptionText text, Member member) {
     option.set = [set = option.set](O& o, const std::vector<std::string>& words) {
         set(o, words);
         o.names_rollout = true;
-    };
-    return option;
-}
-
-Option hidden_option() {
-    Option option{{"--hidden",
-                   "hidden",
-                   "UNITS,...",
-                   "Layers of the networks (64,64)",
-                   {"net_arch", "fcnet_hiddens"},
-                   true,
-                   true},
-                  {},
-                  {}};
-    option.set = [](O& o, const std::vector<std::string>& words) {
-        std::vector<int> hidden;
-        for (const std::string& units : words)
-            hidden.push_back(number_of_option<int>(units, 1, 1 << 16));
-        if (hidden.empty()) throw OptionRefused("a network has one layer or more");
-        o.hidden = std::move(hidden);
-    };
-    option.text = [](const O& o) {
-        return fmt::format("{}", fmt::join(o.hidden, ","));
     };
     return option;
 }
@@ -208,7 +186,8 @@ OptionTable<O> make_table() {
             {"--log-std",
              "log_std",
              "X",
-             "Logarithm of the noise's first standard deviation (0)",
+             "Logarithm of the noise's first standard deviation (auto: 0, or -2 where that makes "
+             "returns far worse than those of no-op)",
              {"log_std_init"}},
             [](auto& o) -> auto& { return o.log_deviation; }, -20, 5),
         switch_option<O>(
@@ -223,15 +202,8 @@ OptionTable<O> make_table() {
              "Reward for seeing more of the problem while nearly all episodes have "
              "the same return: on (default; off in sb3 and rllib), off"},
             [](auto& o) -> auto& { return o.curious; }),
-        hidden_option(),
-        choice_option<O, Activation>(
-            {"--activation",
-             "activation",
-             "FUNCTION",
-             "Activation of hidden layers: tanh (default), or relu, which is faster",
-             {"activation_fn", "fcnet_activation"}},
-            [](auto& o) -> auto& { return o.activation; },
-            {{"tanh", Activation::Tanh}, {"relu", Activation::Relu}}),
+        hidden_option<O>(),
+        activation_option<O>(),
         int_option(
             {"--stack", "stack", "K", "Observations seen at once (1)", {"n_stack", "frame_stack"}},
             [](auto& o) -> auto& { return o.observations.stack; }, 1, most_stacked),

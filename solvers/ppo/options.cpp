@@ -13,6 +13,7 @@ PpoOptions without_help() {
     options.observations.time = ObservationOptions::Time::Off;
     options.bootstraps = true;
     options.entropy_weight = 0;
+    options.log_deviation = 0;
     return options;
 }
 

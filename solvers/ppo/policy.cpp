@@ -108,17 +108,57 @@ struct PpoActor {
     std::vector<std::uint8_t> masks;
 };
 
+// A network in the states of a batch, for policies that know them from a state alone.
+class NetworkOfStates {
+  public:
+    NetworkOfStates(const rddl_simulator& simulator, const PpoModel& model, const Network& network,
+                    const float* parameters, std::int64_t environments)
+        : simulator_(simulator), model_(model), network_(network), parameters_(parameters) {
+        const auto count = static_cast<std::size_t>(environments);
+        observations_.resize(count * static_cast<std::size_t>(model.observations.column_count()));
+        features_.resize(static_cast<std::size_t>(model.features()));
+        inputs_.resize(count * static_cast<std::size_t>(model.input_row()));
+        activations_.resize(tile * network.activations);
+    }
+
+    // visit(outputs) for one environment after the other.
+    template <class Visit>
+    void look(rddl_batch* batch, std::span<const std::int64_t> steps, Visit&& visit) {
+        const auto count = static_cast<std::int64_t>(steps.size());
+        const int row = model_.input_row();
+        require_done(simulator_,
+                     simulator_.get_observation_values(batch, RDDL_FLOAT, observations_.data()));
+        for (std::int64_t e = 0; e < count; ++e) {
+            write_features(model_.observations,
+                           observations_.data() + e * model_.observations.column_count(),
+                           steps[static_cast<std::size_t>(e)], true, features_.data());
+            model_.normaliser.write(features_.data(), inputs_.data() + e * row);
+        }
+        for (std::int64_t e = 0; e < count; e += tile) {
+            const int some = static_cast<int>(std::min<std::int64_t>(tile, count - e));
+            network_functions().forward(network_, parameters_, some, inputs_.data() + e * row, row,
+                                        activations_.data());
+            const float* const outputs = activations_.data() + network_.layers.back().values *
+                                                                   static_cast<std::size_t>(some);
+            for (int i = 0; i < some; ++i) visit(outputs + i * network_.padded_outputs());
+        }
+    }
+
+  private:
+    const rddl_simulator& simulator_;
+    const PpoModel& model_;
+    const Network& network_;
+    const float* parameters_;
+    std::vector<float> observations_, features_, inputs_, activations_;
+};
+
 // The policy's tendencies to some actions, by its logits. Masks leave out what is illegal, which
 // the caller knows.
 struct PpoPriors {
-    PpoPriors(const rddl_simulator& its_simulator, std::shared_ptr<const PpoModel> its_model,
+    PpoPriors(const rddl_simulator& simulator, std::shared_ptr<const PpoModel> its_model,
               std::int64_t environments, std::span<const std::byte> actions)
-        : simulator(its_simulator), model(std::move(its_model)) {
-        const auto count = static_cast<std::size_t>(environments);
-        observations.resize(count * static_cast<std::size_t>(model->observations.column_count()));
-        features.resize(static_cast<std::size_t>(model->features()));
-        inputs.resize(count * static_cast<std::size_t>(model->input_row()));
-        activations.resize(tile * model->policy.activations);
+        : model(std::move(its_model)),
+          network(simulator, *model, model->policy, model->parameters.data(), environments) {
         logarithms.resize(static_cast<std::size_t>(model->actions.logit_count));
         const ActionRecords records(simulator);
         const auto width = static_cast<std::size_t>(model->actions.index_count());
@@ -131,25 +171,9 @@ struct PpoPriors {
     }
 
     void write(rddl_batch* batch, std::span<const std::int64_t> steps, float* rows) {
-        const auto count = static_cast<std::int64_t>(steps.size());
-        const int row = model->input_row(), output_row = model->policy.padded_outputs();
-        require_done(simulator,
-                     simulator.get_observation_values(batch, RDDL_FLOAT, observations.data()));
-        for (std::int64_t e = 0; e < count; ++e) {
-            write_features(model->observations,
-                           observations.data() + e * model->observations.column_count(),
-                           steps[static_cast<std::size_t>(e)], true, features.data());
-            model->normaliser.write(features.data(), inputs.data() + e * row);
-        }
-        for (std::int64_t e = 0; e < count; e += tile) {
-            const int some = static_cast<int>(std::min<std::int64_t>(tile, count - e));
-            network_functions().forward(model->policy, model->parameters.data(), some,
-                                        inputs.data() + e * row, row, activations.data());
-            const float* const outputs = activations.data() + model->policy.layers.back().values *
-                                                                  static_cast<std::size_t>(some);
-            for (int i = 0; i < some; ++i)
-                rows = write_row(outputs + i * output_row + model->actions.real_count(), rows);
-        }
+        network.look(batch, steps, [&](const float* outputs) {
+            rows = write_row(outputs + model->actions.real_count(), rows);
+        });
     }
 
     // Writes the row of one environment; returns the place of the next one.
@@ -211,18 +235,35 @@ struct PpoPriors {
             logarithms[static_cast<std::size_t>(l)] = logits[l] - most - std::log(sum);
     }
 
-    const rddl_simulator& simulator;
     std::shared_ptr<const PpoModel> model;
+    NetworkOfStates network;
     std::vector<std::int32_t> indices;  // rows of index_count
     std::vector<std::int32_t> order;    // sub-actions, the likeliest first
-    std::vector<float> observations, features, inputs, activations, logarithms;
+    std::vector<float> logarithms;
     std::vector<float> shares;  // the probability that a sub-action changes a column
 };
 
-// Only a policy that sees all of a state in its features knows them from a state alone.
-bool has_priors(const rddl_simulator& simulator, const PpoModel& model) {
-    return model.actions.real_count() == 0 && model.recurrent == 0 &&
-           !simulator.problem->partially_observed;
+// Estimates of what the policy still gets paid.
+struct PpoValues {
+    PpoValues(const rddl_simulator& simulator, std::shared_ptr<const PpoModel> its_model,
+              std::int64_t environments)
+        : model(std::move(its_model)),
+          network(simulator, *model, model->value, model->value_parameters(), environments) {}
+
+    void write(rddl_batch* batch, std::span<const std::int64_t> steps, double* values) {
+        network.look(batch, steps, [&](const float* outputs) {
+            *values++ = static_cast<double>(*outputs) * model->value_scale;
+        });
+    }
+
+    std::shared_ptr<const PpoModel> model;
+    NetworkOfStates network;
+};
+
+// Only a policy that sees all of a state in its features knows priors and values from a state
+// alone.
+bool sees_states(const rddl_simulator& simulator, const PpoModel& model) {
+    return model.recurrent == 0 && !simulator.problem->partially_observed;
 }
 
 }  // namespace
@@ -236,13 +277,21 @@ Policy ppo_policy(const rddl_simulator& simulator, std::shared_ptr<const PpoMode
         };
     };
     Policy policy{std::move(name), spaces_of(simulator), start};
-    if (has_priors(simulator, *model))
+    if (!sees_states(simulator, *model)) return policy;
+    if (model->actions.real_count() == 0)
         policy.priors = [&simulator, model](std::int64_t environments,
                                             std::span<const std::byte> actions) -> ActionPriors {
             const auto priors =
                 std::make_shared<PpoPriors>(simulator, model, environments, actions);
             return [priors](rddl_batch* batch, std::span<const std::int64_t> steps, float* rows) {
                 priors->write(batch, steps, rows);
+            };
+        };
+    if (model->value_scale > 0)
+        policy.values = [&simulator, model](std::int64_t environments) -> StateValues {
+            const auto values = std::make_shared<PpoValues>(simulator, model, environments);
+            return [values](rddl_batch* batch, std::span<const std::int64_t> steps, double* rows) {
+                values->write(batch, steps, rows);
             };
         };
     return policy;

@@ -225,9 +225,13 @@ std::vector<int> hidden_of(const Json& json) {
 // Networks of these sizes have that many weights, each of which takes two bytes of the file or
 // more.
 void require_weights_in(const PpoModel& model, std::size_t bytes) {
-    double weights = 0;
-    for (const Network* const network : {&model.policy, &model.value})
-        for (const Layer& layer : network->layers) weights += 1.0 * layer.inputs * layer.outputs;
+    const auto weights_of = [](const Network& network) {
+        double weights = 0;
+        for (const Layer& layer : network.layers) weights += 1.0 * layer.inputs * layer.outputs;
+        return weights;
+    };
+    double weights = weights_of(model.policy);
+    if (model.solver == "ppo") weights += weights_of(model.value);
     weights += 3.0 * model.memory.units * (model.memory.inputs + model.memory.units);
     if (weights > static_cast<double>(bytes) / 2) throw Failure(other_layers);
 }
@@ -291,9 +295,9 @@ Json acted_in(Json space) {
 }
 
 void require_format(const Json& json) {
-    if (!json.is_object() || json.value("format", "") != "rddl-policy" ||
-        json.value("solver", "") != "ppo")
-        throw Failure("it is not a PPO policy");
+    const bool is_policy = json.is_object() && json.value("format", "") == "rddl-policy";
+    const std::string solver = is_policy ? json.value("solver", "") : "";
+    if (solver != "ppo" && solver != "drp") throw Failure("it is not a PPO policy");
     const Json& version = json.at("version");
     if (version.is_number_integer() && version > policy_file_version)
         throw Failure(fmt::format("it is of version {}, and this program reads versions up to {}",
@@ -343,6 +347,7 @@ std::shared_ptr<const PpoModel> read(const rddl_simulator& simulator, std::strin
     const Json json = parse_json(text);
     require_format(json);
     const auto model = std::make_shared<PpoModel>();
+    model->solver = json.at("solver").get<std::string>();
     read_spaces(simulator, json, *model);
     model->hidden = hidden_of(json);
     model->activation = activation_of(json);
@@ -365,10 +370,17 @@ std::shared_ptr<const PpoModel> read(const rddl_simulator& simulator, std::strin
     model->normaliser.means = means;
     model->normaliser.factors = factors;
     read_layers(json.at("policy"), model->policy, model->parameters.data());
-    read_layers(json.at("value"), model->value, model->parameters.data() + model->value_begin());
+    if (model->solver == "ppo")
+        read_layers(json.at("value"), model->value,
+                    model->parameters.data() + model->value_begin());
     if (model->recurrent > 0)
         read_gru(json.at("recurrent"), model->memory,
                  model->parameters.data() + model->memory_begin());
+    if (json.contains("values")) {
+        const Json& values = json.at("values");
+        model->value_scale = real_number(values.at("scale"), "scale of values", 0, 1e300);
+        model->value_discount = real_number(values.at("discount"), "discount of values", 0, 1);
+    }
     const std::vector<float> deviations =
         numbers_in(json.at("log_deviations"), static_cast<std::size_t>(model->deviation_count()),
                    "its actions do not fit");
@@ -383,8 +395,8 @@ std::shared_ptr<const PpoModel> read(const rddl_simulator& simulator, std::strin
 std::string ppo_policy_text(const rddl_simulator& simulator, const PpoModel& model) {
     const rddl_problem& problem = *simulator.problem;
     std::string text = fmt::format(
-        R"({{"format":"rddl-policy","version":{},"solver":"ppo","domain":"{}","instance":"{}",)",
-        policy_file_version, problem.domain, problem.instance);
+        R"({{"format":"rddl-policy","version":{},"solver":"{}","domain":"{}","instance":"{}",)",
+        policy_file_version, model.solver, problem.domain, problem.instance);
     text +=
         fmt::format(R"("observation":{{"space":{},"stack":{},"time":{},"means":{},"factors":{}}},)",
                     text_of(model.observations), model.observations.stack, model.observations.time,
@@ -396,9 +408,12 @@ std::string ppo_policy_text(const rddl_simulator& simulator, const PpoModel& mod
         text += fmt::format(R"("activation":"{}",)", name_of(model.activation));
     if (model.recurrent > 0)
         text += fmt::format(R"("recurrent":{},)", text_of(model.memory, model.memory_parameters()));
-    text +=
-        fmt::format(R"("policy":{},"value":{},)", text_of(model.policy, model.parameters.data()),
-                    text_of(model.value, model.value_parameters()));
+    text += fmt::format(R"("policy":{},)", text_of(model.policy, model.parameters.data()));
+    if (model.solver == "ppo")
+        text += fmt::format(R"("value":{},)", text_of(model.value, model.value_parameters()));
+    if (model.value_scale > 0)
+        text += fmt::format(R"("values":{{"scale":{:.17g},"discount":{:.17g}}},)",
+                            model.value_scale, model.value_discount);
     text += fmt::format(
         R"("log_deviations":{},"noise":"{}","noise_steps":{},"correlation":{:.17g}}})",
         array(model.log_deviations(), static_cast<std::size_t>(model.deviation_count())),

@@ -11,9 +11,9 @@
 
 namespace rddlc::solvers {
 
-// The version that is written. Versions 1 to 4 are read as well: they have fewer members, and call
-// max_sub_actions picks.
-inline constexpr int policy_file_version = 5;
+// The version that is written. Versions 1 to 5 are read as well: they have fewer members, and those
+// up to 4 call max_sub_actions picks.
+inline constexpr int policy_file_version = 6;
 
 std::string ppo_policy_text(const rddl_simulator& simulator, const PpoModel& model);
 

@@ -2,8 +2,11 @@
 // formulae and a pairwise algorithm for computing sample variances", 1979.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
+#include <span>
 #include <vector>
 
 namespace rddlc::solvers {
@@ -22,6 +25,19 @@ struct Moments {
         squares += others.squares;
     }
 };
+
+// Numbers below this are far below the usual ones: by 100 times the distance between the 5th and
+// the 95th of a hundred. -inf where these are the same. Changes the order of the numbers.
+inline double least_usual(std::span<float> numbers) {
+    const auto at = [&](std::size_t place) {
+        const auto found = numbers.begin() + static_cast<std::ptrdiff_t>(place);
+        std::nth_element(numbers.begin(), found, numbers.end());
+        return static_cast<double>(*found);
+    };
+    const std::size_t part = numbers.size() / 20;
+    const double low = at(part), high = at(numbers.size() - 1 - part);
+    return high > low ? low - 100 * (high - low) : -std::numeric_limits<double>::infinity();
+}
 
 struct RunningStatistics {
     double count = 0, mean = 0, variance = 1;

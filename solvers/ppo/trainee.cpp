@@ -67,6 +67,11 @@ Trainee ppo_trainee(const rddl_simulator& simulator, const PpoOptions& options, 
     if (const int rollout = trainer->options().rollout; rollout != options.rollout)
         trainee.note = fmt::format("--rollout is {} in place of {}, since this problem is large",
                                    rollout, options.rollout);
+    if (const double first = *trainer->options().log_deviation;
+        !options.log_deviation && first != 0)
+        trainee.note += fmt::format(
+            "{}--log-std is {}, since noise of deviation 1 has far worse returns than no-op",
+            trainee.note.empty() ? "" : "; ", first);
     trainee.ends_early = static_cast<bool>(options.stops);
     if (demonstrate)
         trainee.prepare = [=] {

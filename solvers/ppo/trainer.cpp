@@ -4,6 +4,7 @@
 #include "solvers/files/checkpoint.hpp"
 #include "solvers/ppo/advantages.hpp"
 #include "solvers/ppo/collector.hpp"
+#include "solvers/ppo/first_noise.hpp"
 #include "solvers/ppo/learner.hpp"
 #include "solvers/ppo/memory_estimate.hpp"
 #include "support/failure.hpp"
@@ -23,7 +24,7 @@ namespace rddlc::solvers {
 
 namespace {
 
-const CheckpointKind checkpoint{"PPO", "rddl ppo checkpoint", 7};
+const CheckpointKind checkpoint{"PPO", "rddl ppo checkpoint", 8};
 constexpr std::size_t remembered_episodes = 100;
 
 using Clock = std::chrono::steady_clock;
@@ -70,10 +71,13 @@ void shuffle(std::vector<std::uint32_t>& order, std::uint64_t seed, std::uint64_
     }
 }
 
-// Shortens the rollout where it may.
+// Chooses the noise that it begins with, and shortens the rollout where it may.
 PpoModel model_that_fits(const rddl_simulator& simulator, PpoOptions& options) {
-    PpoModel model = model_without_parameters(observation_space(simulator, options.observations),
-                                              action_space(simulator, options.stops), options);
+    const ObservationSpace observations = observation_space(simulator, options.observations);
+    const ActionSpace actions = action_space(simulator, options.stops);
+    if (!options.log_deviation)
+        options.log_deviation = first_log_deviation(simulator, observations, actions, options);
+    PpoModel model = model_without_parameters(observations, actions, options);
     if (options.shortens_rollout) options.rollout = fitting_rollout(simulator, model, options);
     require_memory(simulator, model, options);
     make_parameters(model, options);
@@ -107,6 +111,7 @@ struct PpoTrainer::State {
         }
         // Nothing is allocated later.
         episodes.reserve(remembered_episodes);
+        sorted.reserve(experience.count());
         const std::size_t minibatches = order.size() / segments_per_minibatch(options) + 1;
         moments.reserve(std::max({feature_statistics.size() + 1, minibatches, std::size_t{3}}));
         entropy_weight =
@@ -124,7 +129,6 @@ struct PpoTrainer::State {
 
     void collect(std::int64_t number) {
         for_each_collector([&](Collector& collector) {
-            collector.return_origin = return_statistics.mean;
             collector.begin_update(options.seed, number);
             collector.collect(experience, options.seed, number);
         });
@@ -145,8 +149,8 @@ struct PpoTrainer::State {
         for (const auto& collector : collectors) {
             for (std::size_t i = 0; i < collector->feature_moments().size(); ++i)
                 all[i % features].add(collector->feature_moments()[i]);
-            for (const Moments& each : collector->return_moments()) all[features].add(each);
         }
+        all[features] = moments_of_returns();
         add_up(all);
         if (options.normalises_observations)
             for (std::size_t f = 0; f < features; ++f) {
@@ -157,11 +161,33 @@ struct PpoTrainer::State {
                     static_cast<float>(1 / feature_statistics[f].deviation());
             }
         return_statistics.add(all[features]);
+        note_value_scale();
+    }
+
+    // The moments of discounted sums of rewards, about the mean so far. Losses far beyond the usual
+    // ones are cut: else a few ruinous episodes would make all others look alike.
+    Moments moments_of_returns() {
+        sorted = experience.so_far;
+        const double least = least_usual(sorted);
+        Moments found;
+        for (const float each : experience.so_far)
+            found.add(std::max(static_cast<double>(each), least) - return_statistics.mean);
+        return found;
+    }
+
+    // A reward of 1 in the units of values.
+    double reward_factor() const {
+        return options.normalises_rewards ? 1 / return_statistics.deviation() : 1;
+    }
+
+    void note_value_scale() {
+        model.value_scale = 1 / reward_factor();
+        model.value_discount = gamma;
     }
 
     void estimate() {
         if (options.normalises_rewards) {
-            const double factor = 1 / return_statistics.deviation();
+            const double factor = reward_factor();
             for (float& reward : experience.rewards)
                 reward = static_cast<float>(
                     std::clamp(static_cast<double>(reward) * factor, -10.0, 10.0));
@@ -360,6 +386,7 @@ struct PpoTrainer::State {
             model.normaliser.factors[f] = static_cast<float>(1 / feature_statistics[f].deviation());
         }
         return_statistics.add(all[features]);
+        note_value_scale();
     }
 
     // Samples of which one is as good as the other.
@@ -372,7 +399,7 @@ struct PpoTrainer::State {
         std::fill(made.masks.begin(), made.masks.end(), std::uint8_t{1});
         // So that no ratio of probabilities, of which nothing depends here, overflows.
         std::fill(made.log_probabilities.begin(), made.log_probabilities.end(), 1e4f);
-        const double factor = options.normalises_rewards ? 1 / return_statistics.deviation() : 1.0;
+        const double factor = reward_factor();
         double future = 0;
         for (std::size_t s = shown.count(); s-- > 0;) {
             model.normaliser.write(at(shown.features, s, model.features()),
@@ -457,6 +484,8 @@ struct PpoTrainer::State {
                 "--recurrent have to be as they were");
         archive.fixed(model.normaliser.means);
         archive.fixed(model.normaliser.factors);
+        archive(model.value_scale);
+        archive(model.value_discount);
         archive.fixed(learner.first_moments);
         archive.fixed(learner.second_moments);
         archive(learner.adam_steps);
@@ -503,6 +532,7 @@ struct PpoTrainer::State {
     std::vector<std::uint32_t> order;
     std::vector<FinishedEpisode> episodes;  // the last ones
     std::vector<Moments> moments;           // room for what is summed up
+    std::vector<float> sorted;              // the same for quantiles
     double gamma, learning_rate, kl_penalty, entropy_weight = 0;
     std::int64_t repaired = 0;
     bool has_imitated = false;

@@ -1,4 +1,4 @@
-"""Reads a policy of `rddl train ppo` (policy.json) and acts by it, with nothing but the standard library.
+"""Reads a policy of `rddl train ppo` or `rddl train drp` (policy.json) and acts by it, with nothing but the standard library.
 
     policy = Policy("runs/a/policy.json")
     action = policy.act({"pos": -0.5, "vel": 0.0}, step=0)      # {"action": 0.87}
@@ -17,10 +17,10 @@ class Policy:
     def __init__(self, path):
         with open(path) as file:
             self.file = json.load(file)
-        if self.file.get("format") != "rddl-policy" or self.file.get("solver") != "ppo":
-            raise ValueError(f"{path} is not a PPO policy")
-        if self.file["version"] > 5:
-            raise ValueError(f"{path} is of version {self.file['version']}, and this reads versions up to 5")
+        if self.file.get("format") != "rddl-policy" or self.file.get("solver") not in ("ppo", "drp"):
+            raise ValueError(f"{path} is not a policy of PPO or DRP")
+        if self.file["version"] > 6:
+            raise ValueError(f"{path} is of version {self.file['version']}, and this reads versions up to 6")
         name = self.file.get("activation", "tanh")
         if name not in ACTIVATIONS:
             raise ValueError(f"the activation of {path} is unknown: '{name}'")

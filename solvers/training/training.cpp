@@ -164,10 +164,17 @@ class Training {
         return !result_.interrupted;
     }
 
+    // Of the work that ends the run, or of its time: a run that its time ends is evaluated as often
+    // as others. Ranks evaluate together, and their clocks differ.
+    double part_done() const {
+        if (options_.seconds <= 0 || options_.ranks.count > 1) return trainee_.part_done();
+        return std::min(1.0, std::max(trainee_.part_done(), elapsed() / options_.seconds));
+    }
+
     // The work after an update. A run that was interrupted meanwhile does it when it is resumed.
     void finish_update() {
-        const bool due = trainee_.part_done() >= static_cast<double>(evaluations_ + 1) /
-                                                     static_cast<double>(options_.evaluations);
+        const bool due = part_done() >= static_cast<double>(evaluations_ + 1) /
+                                            static_cast<double>(options_.evaluations);
         const bool promises = options_.stop_return && trainee_.best_known &&
                               trainee_.best_known() >= *options_.stop_return;
         owes_evaluation_ = (due || promises) && !evaluate();
@@ -200,8 +207,8 @@ class Training {
         const Summary summary = summary_of(rollouts);
         evaluated_ = true;
         evaluated_at_ = trainee_.steps();
-        evaluations_ = static_cast<std::int64_t>(trainee_.part_done() *
-                                                 static_cast<double>(options_.evaluations));
+        evaluations_ =
+            static_cast<std::int64_t>(part_done() * static_cast<double>(options_.evaluations));
         last_return_ = summary.undiscounted_return.mean;
         last_length_ = summary.length.mean;
         result_.episodes = summary.episodes;
@@ -243,7 +250,7 @@ class Training {
         const bool terminal = tells_to_screen();
         if (!last && seconds_between(last_shown_, now) < (terminal ? 0.2 : 5.0)) return;
         last_shown_ = now;
-        const double part = trainee_.part_done(), seconds = elapsed();
+        const double part = part_done(), seconds = elapsed();
         const std::string begin = fmt::format("{} {} {:3.0f} %  ", trainee_.solver,
                                               simulator_.problem->instance, 100 * part);
         std::string end;

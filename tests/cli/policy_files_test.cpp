@@ -149,7 +149,7 @@ TEST_F(PolicyFiles, OfAFolderWhoseRunJsonMakesNoSenseAreRefused) {
         {"[]", "is not the JSON of a run: it is not an object"},
         {"{\"solver\":1}", "'solver' is a text, not 1"},
         {"{\"solver\":\"cgp\",\"domain\":[2]}", "'domain' is a text, not an array"},
-        {"{\"solver\":\"x\"}", "'x' is neither ppo nor cgp"},
+        {"{\"solver\":\"x\"}", "'x' is none of ppo, cgp and drp"},
         {"{\"seed\":1}", "does not state the solver of a run"},
         {"1e999", "is not the JSON of a run"},
         {"{\"solver\":\"ppo\"}", "there is no policy.json in the folder 'r'"}};
@@ -212,8 +212,8 @@ TEST_F(PolicyFiles, OfPpoWithWrongNumbersAreRefused) {
     refuses_numbers("/version", "version ");
     refuses_numbers("/observation/stack", "its stack is ");
     refuses_numbers("/noise_steps", "its number of steps with the same noise is ");
-    refuses_value("/version", "6", "it is of version 6, and this program reads versions up to 5");
-    refuses_value("/version", "1.7", "its version is 1.7, not an int from 1 to 5");
+    refuses_value("/version", "7", "it is of version 7, and this program reads versions up to 6");
+    refuses_value("/version", "1.7", "its version is 1.7, not an int from 1 to 6");
     for (const char* const units : {"-1", "0", "64.5", "2147483647", "1e400", "\"8\"", "null"})
         for (const char* const pointer : {"/hidden/0", "/recurrent/units"})
             refuses_value(pointer, units,
@@ -319,9 +319,10 @@ TEST_F(PolicyFiles, CtrlCIsHeardWithinAChoiceAmongThousands) {
         for (const char* const solver :
              {"ppo --steps 1e12 --envs 64 --rollout 2 --minibatch 64", "cgp --gens 1000000"}) {
             const auto begin = std::chrono::steady_clock::now();
-            const Outcome outcome = run(fmt::format("train {} {} {} --quiet --out o{}", solver,
-                                                    file, interpreted, number++),
-                                        fmt::format("timeout --preserve-status -s INT -k 60 {}", seconds));
+            const Outcome outcome =
+                run(fmt::format("train {} {} {} --quiet --out o{}", solver, file, interpreted,
+                                number++),
+                    fmt::format("timeout --preserve-status -s INT -k 60 {}", seconds));
             const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - begin;
             EXPECT_EQ(outcome.status, 130) << file << " " << solver << outcome.err;
             EXPECT_LT(taken.count(), seconds + 15) << file << " " << solver;

@@ -82,5 +82,14 @@ TEST_F(CostModelTest, ALoopOverSeveralObjectsMakesFourIterationsAtOnce) {
     EXPECT_EQ(cost_of({together}), apart / 3) << "three objects in one iteration";
 }
 
+TEST_F(CostModelTest, ALoopOverSeveralObjectsIsItsOwnBesideOneOverTheSameObjects) {
+    const Definition one = w.fill(w.next_running, w.c, w.at(w.running, w.c));
+    const Definition other = w.fill(w.seen, w.c, w.apply(Operator::Not, w.at(w.reboot, w.c)));
+    Definition both = one;
+    both.body.push_back(other.body.front());
+    std::get<Loop>(both.body.back().form).several_at_once = true;
+    EXPECT_EQ(cost_of({both}), cost_of({one}) + cost_of({other}) / 3);
+}
+
 }  // namespace
 }  // namespace rddlc::ir

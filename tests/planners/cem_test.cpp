@@ -172,5 +172,35 @@ TEST(RandomStream, HasMeanZeroAndDeviationOne) {
     EXPECT_NE(RandomStream(1, 2, 3).bits(), RandomStream(2, 2, 3).bits());
 }
 
+// One step ahead, to stay pays 1, and what else is worth while comes later.
+TEST(Cem, CountsWhatFollowsByTheValuesOfAPolicy) {
+    const std::string short_plans =
+        "plan:cem,horizon=1,population=16,scenarios=256,iterations=4,policy=knows the ladder";
+    const Played by_policy = run(ladder(), short_plans);
+    const Played by_values = run(ladder(), short_plans + ",tail=value");
+    const auto value_of = [](const Played& played) {
+        return played.thought(0, 0).candidates.at(0).value;
+    };
+    EXPECT_NEAR(value_of(by_policy), 4, 0.5);  // to stay, four times
+    EXPECT_NEAR(value_of(by_values), 4.75, 0.6);
+    EXPECT_EQ(by_values.returns(), run(ladder(), short_plans + ",tail=value", 1, 2).returns());
+
+    const auto complaint = [](const std::string& planner) -> std::string {
+        try {
+            run(ladder(), planner);
+        } catch (const Failure& failure) {
+            return failure.what();
+        }
+        return "";
+    };
+    EXPECT_EQ(complaint("plan:cem,tail=value"), "tail=value needs a policy: policy=POLICY");
+    EXPECT_EQ(complaint("plan:cem,policy=noop,tail=value"),
+              "plan:cem,tail=value needs a policy that estimates values, and 'noop' does not");
+    EXPECT_EQ(complaint("plan:uct,policy=noop,initial=value"),
+              "plan:uct,initial=value needs a policy that estimates values, and 'noop' does not");
+    EXPECT_EQ(complaint("plan:uct,initial=value"),
+              "plan:uct: initial=value needs a policy: policy=POLICY");
+}
+
 }  // namespace
 }  // namespace rddlc::planners

@@ -1,6 +1,6 @@
 #include "planners/gradient/gradient.hpp"
 
-#include "engines/step_derivatives.hpp"
+#include "derivatives.hpp"
 #include "planners/gradient/action_parameters.hpp"
 #include "planning.hpp"
 #include "solvers/batches/batch.hpp"
@@ -17,14 +17,6 @@ namespace rddlc::planners {
 namespace {
 
 namespace fs = std::filesystem;
-
-solvers::DerivativesSource derivatives_in(const fs::path& folder) {
-    workbench::ProblemFiles files;
-    files.name = folder.string();
-    files.domain = folder / "domain.rddl";
-    files.instance = folder / "instance.rddl";
-    return workbench::derivatives_of(files, {});
-}
 
 Played run_gradient(const rddl_simulator& simulator, const fs::path& folder,
                     const std::string& options, std::int64_t episodes = 1, int threads = 1,

@@ -304,5 +304,18 @@ TEST(Uct, TriesActionsByThePriorsOfAPolicy) {
         run(network(), "plan:uct,iterations=200,policy=fond of the last action", 1, 2).returns());
 }
 
+TEST(Uct, ValuesNewStatesByTheValuesOfAPolicy) {
+    const Played plan =
+        run(ladder(), "plan:uct,iterations=4000,policy=knows the ladder,initial=value", 20);
+    for (const auto& candidate : plan.thought(0, 0).candidates)
+        if (candidate.trials > 1000) {
+            EXPECT_NEAR(candidate.value, 4.75, 0.4);
+        }
+    EXPECT_NEAR(plan.mean(), 4.75, 2);
+    // Without a trial the policy's likeliest action is taken.
+    const Played none = run(ladder(), "plan:uct,steps=2,policy=knows the ladder,initial=value");
+    EXPECT_EQ(none.mean(), 4);
+}
+
 }  // namespace
 }  // namespace rddlc::planners

@@ -3,6 +3,7 @@
 //
 // Over 400 lines: a test for each thing that can be seen.
 #include "simulators.hpp"
+#include "solver_kite.h"
 #include "solvers/evaluation/summary.hpp"
 #include "solvers/ppo/advantages.hpp"
 #include "solvers/ppo/curiosity.hpp"
@@ -64,6 +65,18 @@ TEST(Advantages, AgreeWithTheSum) {
         EXPECT_NEAR(advantages[t], sum, 1e-5) << t;
         EXPECT_NEAR(returns[t], sum + static_cast<double>(values[t]), 1e-5) << t;
     }
+}
+
+TEST(RunningStatistics, KnowTheLeastUsualNumber) {
+    std::vector<float> numbers(1000);
+    std::iota(numbers.begin(), numbers.end(), 0.0f);
+    EXPECT_EQ(least_usual(numbers), 50 - 100.0 * (949 - 50));
+    std::fill_n(numbers.begin(), 30, -1e20f);  // few enough
+    EXPECT_NEAR(least_usual(numbers), 50 - 100.0 * 900, 3000);
+    std::fill(numbers.begin() + 30, numbers.end(), 7.0f);
+    EXPECT_EQ(least_usual(numbers), -std::numeric_limits<double>::infinity());
+    std::vector<float> one{3.0f};
+    EXPECT_EQ(least_usual(one), -std::numeric_limits<double>::infinity());
 }
 
 // ------------------------------------------------------------------ Stable-Baselines3's update
@@ -164,6 +177,31 @@ PpoOptions small_training() {
     options.hidden = {16, 16};
     options.seed = 5;
     return options;
+}
+
+// Noise of the width of the bounds throws the kite out of sight; no-op loses 1 in each step.
+TEST(Ppo, BeginsWithLittleNoiseWhereMoreIsRuinous) {
+    const rddl_simulator& kite = *rddl_simulator_kite_kite_1();
+    PpoOptions options;
+    options.steps = 100'000;
+    const Trainee trainee = ppo_trainee(kite, options);
+    EXPECT_EQ(trainee.note,
+              "--log-std is -2, since noise of deviation 1 has far worse returns than no-op");
+    TrainingOptions training;
+    training.folder =
+        std::filesystem::temp_directory_path() / fmt::format("rddlc_kite_{}", getpid());
+    training.quiet = true;
+    const TrainingResult result = train(kite, trainee, training);
+    std::filesystem::remove_all(training.folder);
+    EXPECT_GT(result.best_return, -50);  // that of no-op
+    EXPECT_EQ(result.no_better, "");
+
+    options.log_deviation = -1;
+    EXPECT_EQ(ppo_trainee(kite, options).note, "");
+    for (const rddl_simulator* simulator : simulators()) {
+        const PpoTrainer trainer(*simulator, small_training());
+        EXPECT_EQ(trainer.options().log_deviation, 0) << simulator->problem->domain;
+    }
 }
 
 TEST(Ppo, ThreadsDoNotMatter) {
@@ -410,12 +448,49 @@ TEST(Ppo, PoliciesAreReadAsTheyWereWritten) {
     EXPECT_EQ(read(text.substr(0, text.size() / 2)), "it is incomplete, or not JSON");
     EXPECT_EQ(read("{}"), "it is not a PPO policy");
     std::string newer = text;
-    newer.replace(newer.find("\"version\":5"), 11, "\"version\":9");
-    EXPECT_EQ(read(newer), "it is of version 9, and this program reads versions up to 5");
+    newer.replace(newer.find("\"version\":6"), 11, "\"version\":9");
+    EXPECT_EQ(read(newer), "it is of version 9, and this program reads versions up to 6");
     EXPECT_NE(complaint([&] {
                   read_ppo_policy(*rddl_simulator_reservoir_reservoir_1(), text);
               }).find("it is of the problem mountain_car_1"),
               std::string::npos);
+}
+
+TEST(Ppo, ValuesAreInTheRewardsOfTheProblem) {
+    const rddl_simulator& network = *rddl_simulator_network_network_1();
+    PpoOptions options = small_training();
+    options.steps = 40 * 24 * 32;
+    options.learning_rate = 3e-3;
+    options.minibatch = 128;
+    PpoTrainer trainer(network, options);
+    while (!trainer.done()) trainer.update();
+    const std::string text = ppo_policy_text(network, trainer.model());
+    const Policy policy = ppo_policy(network, read_ppo_policy(network, text), false, 0, "ppo");
+    ASSERT_TRUE(policy.values);
+    rddl_batch_options batch_options{};
+    batch_options.environment_count = 3;
+    const BatchHandle batch = create_batch(network, batch_options);
+    const std::vector<std::int64_t> at_first(3, 0), at_last(3, network.problem->horizon - 1);
+    std::vector<double> first(3), last(3);
+    const StateValues values_of = policy.values(3);
+    values_of(batch.get(), at_first, first.data());
+    values_of(batch.get(), at_last, last.data());
+    const double expected = trainer.progress().mean_discounted_return;
+    EXPECT_NEAR(first[0], expected, 0.25 * std::abs(expected));
+    EXPECT_EQ(first[0], first[2]);
+    EXPECT_LT(std::abs(last[0]), 0.5 * std::abs(expected));  // it sees the time
+
+    nlohmann::json older = nlohmann::json::parse(text);
+    older["version"] = 5;
+    older.erase("values");
+    EXPECT_FALSE(
+        ppo_policy(network, read_ppo_policy(network, older.dump()), false, 0, "ppo").values);
+    older["values"] = {{"scale", -1}, {"discount", 1}};
+    EXPECT_THROW(read_ppo_policy(network, older.dump()), Failure);
+    PpoTrainer hidden(maze(), small_training());
+    hidden.update();
+    EXPECT_FALSE(
+        ppo_policy(maze(), std::make_shared<PpoModel>(hidden.model()), false, 0, "ppo").values);
 }
 
 TEST(Ppo, FilesOfVersionsThatCalledSubActionsPicksAreRead) {

@@ -199,9 +199,9 @@ std::string solver_of_run(const fs::path& folder) {
     const auto run = run_in(folder);
     if (!run) return {};
     const std::string solver = run->value("solver", "");
-    if (solver == "ppo" || solver == "cgp") return solver;
+    if (solver == "ppo" || solver == "cgp" || solver == "drp") return solver;
     throw Failure(
-        fmt::format("'{}' does not state the solver of a run: '{}' is neither ppo nor cgp",
+        fmt::format("'{}' does not state the solver of a run: '{}' is none of ppo, cgp and drp",
                     run_file(folder).string(), solver));
 }
 

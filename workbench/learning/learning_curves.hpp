@@ -43,8 +43,8 @@ Curve curve_of(const std::string& name, const std::vector<RunProgress>& runs, co
 // the name.
 std::string without_seed(const std::string& name, std::uint64_t seed);
 
-// "ppo" or "cgp", as run.json in the folder says; "" without that file. Throws a Failure if it says
-// anything else.
+// "ppo", "cgp" or "drp", as run.json in the folder says; "" without that file. Throws a Failure if
+// it says anything else.
 std::string solver_of_run(const std::filesystem::path& folder);
 
 struct RunDescription {

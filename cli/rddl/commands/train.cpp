@@ -5,6 +5,7 @@
 #include "learning/imitation.hpp"
 #include "solvers/cgp/option_table.hpp"
 #include "solvers/cgp/trainee.hpp"
+#include "solvers/drp/trainee.hpp"
 #include "solvers/ppo/demonstrations.hpp"
 #include "solvers/ppo/option_table.hpp"
 #include "solvers/ppo/trainee.hpp"
@@ -271,6 +272,46 @@ Command cgp_command() {
     return command;
 }
 
+// --------------------------------------------------------------------------------------- DRP
+
+struct TrainDrpOptions : TrainOptions {
+    solvers::DrpOptions drp;
+};
+
+ExitStatus train_drp(TrainDrpOptions options) {
+    options.load.quiet = options.training.quiet;
+    const LoadedProblem problem = load_problem(options.problem.files(), options.load);
+    const rddl_simulator& simulator = *problem.simulator;
+    solvers::DrpOptions drp = options.drp;
+    drp.seed = options.training.seed;
+    drp.memory_limit = options.problem.memory_limit;
+    drp.stops = is_interrupted;
+    return run_training(options, simulator,
+                        solvers::drp_trainee(simulator, drp, problem.derivatives), {});
+}
+
+Command drp_command() {
+    const auto options = std::make_shared<TrainDrpOptions>();
+    Command command;
+    command.name = "drp";
+    command.summary = "Learn a neural network by exact gradients of its return";
+    command.details =
+        "A deep reactive policy: a network of the state that goes up the exact gradient of its\n"
+        "return, through all steps of its episodes (docs/planning.md). Reals, ints between bounds\n"
+        "and bools have derivatives; objects do not. Refuses problems that hide their state.\n\n"
+        "Examples:\n"
+        "  rddl train drp UAV_ippc2023 1 --time 30 --out runs/d\n"
+        "  rddl evaluate UAV_ippc2023 1 --policy runs/d";
+    add_common_options(command, *options);
+    add_learner_options(command, solvers::drp_option_table(), options->drp);
+    add_title(command, "--steps", "Gradients");
+    add_title(command, "--hidden", "Network");
+    command.run = [options] {
+        return train_drp(*options);
+    };
+    return command;
+}
+
 }  // namespace
 
 Command train_command() {
@@ -278,7 +319,7 @@ Command train_command() {
     command.name = "train";
     command.summary = "Learn a policy";
     command.details = "'rddl help train ppo' lists all options.";
-    command.commands = {ppo_command(), cgp_command(), train_plan_command()};
+    command.commands = {ppo_command(), cgp_command(), drp_command(), train_plan_command()};
     return command;
 }
 

@@ -62,10 +62,12 @@ class Separation {
             return std::ranges::find(aggregations, id) != aggregations.end();
         };
         const ObjectLanes several = several_of(nest, is_one);
-        double rest = builder_.properties(store->value).cost;
-        for (const ir::NodeId id : aggregations) rest -= builder_.properties(id).cost;
-        if (rest < worth_separating || !several.are_enough(program_[store->target].scalar) ||
-            !several.can_store(*store))
+        const auto is_computed_before = [&](ir::NodeId id) {
+            return is_one(id) || is_over_none(builder_.properties(id), nest.variables);
+        };
+        if (cost_of_rest(store->value, is_computed_before) < worth_separating ||
+            !several.are_enough(program_[store->target].scalar) || !several.can_store(*store) ||
+            several_of(nest, nullptr).can_store(*store))
             return;
 
         std::map<ir::NodeId, ir::NodeId> elements;
@@ -74,6 +76,16 @@ class Separation {
         store->value = ir::replace_in(builder_, store->value, elements);
         loop.several_at_once = true;
         report_["loops whose aggregations are computed before"] += 1;
+    }
+
+    // Of a value without these parts of it.
+    template <class IsLeftOut>
+    double cost_of_rest(ir::NodeId id, const IsLeftOut& is_left_out) const {
+        if (is_left_out(id)) return 0;
+        double cost = builder_.properties(id).cost;
+        for (const ir::NodeId operand : ir::operands_of(program_[id]))
+            cost += cost_of_rest(operand, is_left_out) - builder_.properties(operand).cost;
+        return cost;
     }
 
     // The outermost ones; false if there is one that must stay where it is.
@@ -109,6 +121,12 @@ class Separation {
     // (DiscreteOver), binds what it depends on.
     static bool is_over(const ir::Properties& properties, const Variables& variables) {
         return std::ranges::all_of(properties.free_variables, [&](ir::VariableId variable) {
+            return std::ranges::find(variables, variable) != variables.end();
+        });
+    }
+
+    static bool is_over_none(const ir::Properties& properties, const Variables& variables) {
+        return std::ranges::none_of(properties.free_variables, [&](ir::VariableId variable) {
             return std::ranges::find(variables, variable) != variables.end();
         });
     }

@@ -55,6 +55,19 @@ TEST(SeparateAggregations, LeavesThoseInBranchesAndWhatIsCheap) {
     }
 }
 
+// What the loop computes once is no reason for a table, nor a loop that is over several objects as
+// it is.
+TEST(SeparateAggregations, LeavesLoopsThatWouldNotGain) {
+    const std::string once = "(exp[sum_{?z : obj, ?w : obj} [depth(?z, ?w)]])";
+    for (const std::string& cpf :
+         {once + " + " + flow,
+          std::string("Normal(0, 1) + (sum_{?z : obj} [depth(?x, ?y) * COST(?z, ?z)])")}) {
+        passes::Report report;
+        separated(with_summed_pairs(cpf), report);
+        EXPECT_EQ(report["loops whose aggregations are computed before"], 0) << cpf;
+    }
+}
+
 TEST(SeparateAggregations, ComputesTermsBeforeTheyAreAdded) {
     passes::Report report;
     const ir::Program program =
