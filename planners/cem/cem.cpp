@@ -60,6 +60,7 @@ Cem::Cem(const PlannerContext& context, const CemOptions& options)
                context.horizon),
       legal_(simulator_, space_, records_, futures_.count()),
       memories_(context.environments),
+      fresh_(space_, Spread{options.spread}),
       plans_(static_cast<std::size_t>(futures_.count()) / scenarios_, space_.real_count(),
              space_.index_count()),
       noise_(plans_.plans(), space_.real_count(), space_.index_count(), correlations_of(options_)),
@@ -126,7 +127,12 @@ void Cem::end_by_noop(Plan& plan, std::int64_t first, std::int64_t steps) const 
 // Plans of as many steps as plans_ has.
 void Cem::make_population(Memory& memory, const DecisionPoint& point, RandomStream& stream,
                           BudgetMeter& meter) {
-    memory.distribution.draw(stream, noise_, plans_);
+    if (is_fresh(memory)) {
+        fresh_.extend(memory.horizon);
+        fresh_.draw(stream, noise_, plans_);
+    } else {
+        memory.distribution.draw(stream, noise_, plans_);
+    }
     std::ranges::fill(origins_, Origin::Sample);
     std::size_t next = 0;
     const auto take = [&](Origin origin) {
@@ -326,11 +332,12 @@ void Cem::decide(const DecisionPoint& point, std::byte* action, Explanation* exp
         depth = made;
         rank();
         if (depth == 0) break;
-        refit(memory);
+        const bool is_fruitful = values_[order_.front()] > noop_value_;
+        if (is_fruitful && is_fresh(memory)) memory.distribution.restart(memory.horizon);
+        if (is_fruitful || !is_fresh(memory)) refit(memory);
         keep_best(memory);
         meter.add_iterations();
         seconds = meter.seconds() - before;
-        const bool is_fruitful = values_[order_.front()] > noop_value_;
         memory.fruitless = is_fruitful ? 0 : memory.fruitless + 1;
         has_found = !is_fruitful && look_elsewhere(memory, point, stream, meter);
     } while (has_found ||

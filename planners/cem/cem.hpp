@@ -74,8 +74,11 @@ class Cem : public Planner {
     void rank_kept(const Memory& memory);
     void refit(Memory& memory);
     void keep_best(Memory& memory);
-    // Where nothing is better than doing nothing: what is worth it may lie further ahead, or where
-    // no noise around plans leads. Whether there is a new plan to play.
+    // Where nothing is better than doing nothing, every other population is drawn as in a new
+    // episode: the distribution goes to plans that do little.
+    static bool is_fresh(const Memory& memory) { return memory.fruitless % 2 == 1; }
+    // What is better may lie further ahead, or where no noise around plans leads. Whether there is
+    // a new plan to play.
     bool look_elsewhere(Memory& memory, const DecisionPoint& point, RandomStream& stream,
                         BudgetMeter& meter);
     void look_further(Memory& memory, std::int64_t most) const;
@@ -100,6 +103,7 @@ class Cem : public Planner {
     std::optional<ValueTail> tail_;  // what follows plans, where it is by values
     std::optional<NoveltySearch> novelty_search_;  // where it was needed before
     EpisodeMemories<Memory> memories_;
+    Distribution fresh_;  // of a new episode
     std::vector<float> default_numbers_;
     std::vector<std::int32_t> default_indices_;
 

@@ -7,8 +7,6 @@ namespace rddlc::planners {
 
 namespace {
 
-// After so many populations the distribution begins again: it has gone to plans that do little.
-constexpr std::int64_t most_fruitless = 16;
 constexpr std::int64_t most_lanes = 1024, least_lanes = 16;
 constexpr std::int64_t longest_search = 1000;
 
@@ -34,9 +32,10 @@ bool Cem::look_elsewhere(Memory& memory, const DecisionPoint& point, RandomStrea
                          BudgetMeter& meter) {
     const std::int64_t most =
         std::min(point.left, options_.horizon ? memory.horizon : longest_lookahead);
-    if (memory.fruitless % most_fruitless == 0) memory.distribution.restart(memory.horizon);
-    if (memory.horizon >= most) return look_for_rare_states(memory, point, stream, meter);
-    look_further(memory, most);
+    if (memory.horizon < most)
+        look_further(memory, most);
+    else if (!is_fresh(memory))
+        return look_for_rare_states(memory, point, stream, meter);
     return false;
 }
 

@@ -124,7 +124,9 @@ inline void real_values(const RealScale& real, const float* numbers, std::size_t
     const double exact_default = real.exact_default;
     const auto finished = [=](double value) {
         const auto rounded = static_cast<float>(clamped(clamped(value, -1e9, 1e9), lower, upper));
-        return rounded == short_default ? exact_default : static_cast<double>(rounded);
+        // The float next to a bound may lie beyond it.
+        return rounded == short_default ? exact_default
+                                        : clamped(static_cast<double>(rounded), lower, upper);
     };
     const auto make_values = [=](auto value_of) {
         if (real.rounds)

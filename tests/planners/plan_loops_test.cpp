@@ -111,6 +111,12 @@ TEST(PlanLoops, GiveRealsTheirValues) {
             EXPECT_NEAR(values[k], expected, 1e-5 * (1 + std::abs(expected))) << numbers[k];
         }
     }
+    // 0.1f is beyond a bound of 0.1.
+    const float upmost = 1;
+    double bound = 0;
+    plan_loops().real_values({Range::Bounded, false, -0.1, 0.1, 1, 0, 0.0f, 0.0}, &upmost, 1,
+                             &bound);
+    EXPECT_EQ(bound, 0.1);
     // A value that is the default as a float is the default itself.
     const float middle = 0;
     double value = 0;
