@@ -23,8 +23,12 @@ std::size_t DeterminisedProblem::bytes() const {
 }
 
 DeterminisedProblem::StateId DeterminisedProblem::state_of(const std::byte* its_record) {
-    const auto [id, is_new] =
-        ids_.add(hash_of(its_record, state_size_), static_cast<StateId>(states_.size()));
+    return state_of(its_record, hash_of(its_record, state_size_));
+}
+
+DeterminisedProblem::StateId DeterminisedProblem::state_of(const std::byte* its_record,
+                                                           std::uint64_t key) {
+    const auto [id, is_new] = ids_.add(key, static_cast<StateId>(states_.size()));
     if (is_new) {
         states_.emplace_back();
         records_.insert(records_.end(), its_record, its_record + state_size_);
@@ -100,10 +104,16 @@ void DeterminisedProblem::take_moves(StateId state, std::size_t place, const Typ
     const auto first = static_cast<std::uint32_t>(moves_.size());
     bool stays = true;
     twins_.clear();
+    keys_.resize(steps.action_count());
+    for (std::size_t a = 0; a < steps.action_count(); ++a)
+        if (const std::byte* const next = steps.next(place, a)) {
+            keys_[a] = hash_of(next, state_size_);
+            ids_.prefetch(keys_[a]);
+        }
     for (std::size_t a = 0; a < steps.action_count(); ++a) {
         if (!steps.is_legal(place, a)) continue;
         const std::byte* const next = steps.next(place, a);
-        const Move move{static_cast<std::uint32_t>(a), next ? state_of(next) : over,
+        const Move move{static_cast<std::uint32_t>(a), next ? state_of(next, keys_[a]) : over,
                         steps.reward(place, a)};
         (has_twin(first, move) ? twins_ : moves_).push_back(move);
         stays = stays && steps.is_unchanged(place, a) && move.reward == moves_[first].reward;

@@ -98,6 +98,7 @@ class DeterminisedProblem {
         bool is_open = false, stays = false, is_confirmed = false;
     };
 
+    StateId state_of(const std::byte* record, std::uint64_t key);
     void begin_visit(std::span<const StateId> states);
     bool open_front(TypicalSteps& steps, BudgetMeter& meter);
     void take_moves(StateId state, std::size_t place, const TypicalSteps& steps);
@@ -123,6 +124,7 @@ class DeterminisedProblem {
     std::uint32_t visit_ = 0;
     std::vector<StateId> front_, next_front_, closed_;
     std::vector<Move> twins_;
+    std::vector<std::uint64_t> keys_;  // of the states after actions
     std::vector<const std::byte*> wanted_;
 };
 

@@ -81,20 +81,22 @@ void Tree::cancel(NodeId node, EdgeId edge, std::uint32_t outcome) {
 std::uint32_t Tree::add_outcome(EdgeId id, NodeId after) {
     Edge& edge = edges_[id];
     Node& node = nodes_[after];
-    if (node.edge_before != id) {
+    if (node.edge_before == no_edge) {
+        node.outcome = append_outcome(edge, {after, 0, 0, 0});
+    } else if (node.edge_before != id) {
         const auto seen = outcomes(edge);
         const auto found =
             std::ranges::find_if(seen, [after](const Outcome& one) { return one.node == after; });
-        node.edge_before = id;
-        node.outcome = static_cast<std::uint32_t>(found - seen.begin());
-        if (found == seen.end()) append_outcome(edge, {after, 0, 0, 0});
+        node.outcome = found == seen.end() ? append_outcome(edge, {after, 0, 0, 0})
+                                           : static_cast<std::uint32_t>(found - seen.begin());
     }
+    node.edge_before = id;
     ++outcomes_[edge.first_outcome + node.outcome].started;
     return node.outcome;
 }
 
-// A full block moves to the end, with as much room again.
-void Tree::append_outcome(Edge& edge, const Outcome& outcome) {
+// Its place. A full block moves to the end, with as much room again.
+std::uint32_t Tree::append_outcome(Edge& edge, const Outcome& outcome) {
     const std::size_t count = edge.outcome_count;
     if (count == 0 || std::has_single_bit(count)) {
         const std::size_t first = outcomes_.size();
@@ -103,7 +105,7 @@ void Tree::append_outcome(Edge& edge, const Outcome& outcome) {
         edge.first_outcome = static_cast<std::uint32_t>(first);
     }
     outcomes_[edge.first_outcome + count] = outcome;
-    ++edge.outcome_count;
+    return edge.outcome_count++;
 }
 
 NodeId Tree::seen_outcome(EdgeId id, double share) const {
@@ -124,9 +126,19 @@ std::size_t Tree::bytes() const {
            edges_.size() * (sizeof(Edge) + sizeof(Arm)) + outcomes_.size() * sizeof(Outcome);
 }
 
+// A tree that grows to the size of another one moves nothing on the way.
+void Tree::reserve_as(const Tree& other) {
+    nodes_.reserve(other.nodes_.size());
+    edges_.reserve(other.edges_.size());
+    arms_.reserve(other.arms_.size());
+    outcomes_.reserve(other.outcomes_.size());
+    states_.reserve(other.states_.size());
+}
+
 void Tree::keep_below(EdgeId edge) {
     Tree kept(state_size_, discount_, backup_);
     kept.clear();
+    kept.reserve_as(*this);
     std::vector<NodeId> found;  // in this tree, by their number in the other one
     std::vector<NodeId> kept_id(size(), over);
     found.push_back(over);
@@ -142,14 +154,16 @@ void Tree::keep_below(EdgeId edge) {
         Node& copy = kept.nodes_[id];
         copy = node;
         copy.first_edge = static_cast<EdgeId>(kept.edges_.size());
-        copy.edge_before = std::numeric_limits<EdgeId>::max();
+        copy.edge_before = no_edge;
         for (const Edge& old : edges(node)) {
             Edge now = old;
             now.outcome_count = 0;
             for (Outcome outcome : outcomes(old)) {
                 if (outcome.done == 0) continue;  // trials that were cut off have met it
                 outcome.node = keep(outcome.node);
-                kept.append_outcome(now, outcome);
+                Node& after = kept.nodes_[outcome.node];
+                after.edge_before = static_cast<EdgeId>(kept.edges_.size());
+                after.outcome = kept.append_outcome(now, outcome);
             }
             kept.edges_.push_back(now);
             kept.arms_.push_back(arms_[id_of(old)]);

@@ -17,6 +17,7 @@ namespace rddlc::planners {
 
 using NodeId = std::uint32_t;
 using EdgeId = std::uint32_t;
+inline constexpr EdgeId no_edge = std::numeric_limits<EdgeId>::max();
 
 struct Node {
     double value = 0;
@@ -29,10 +30,10 @@ struct Node {
     std::int32_t untried = 0;  // edges of weight 0
     // The weight from which on twins of its actions are looked at (again).
     std::int32_t twins_at = std::numeric_limits<std::int32_t>::max();
-    // An edge that led here, and the place of this node among its outcomes. There is another one
-    // only where a state is reached in several ways.
+    // The edge that led here last, if one did, and the place of this node among its outcomes. There
+    // is another one only where a state is reached in several ways.
+    EdgeId edge_before = no_edge;
     std::uint32_t outcome = 0;
-    EdgeId edge_before = std::numeric_limits<EdgeId>::max();
     bool is_open = false;     // its edges have values
     bool is_asked = false;    // its value is on the way
     bool has_priors = false;  // its edges have priors
@@ -150,7 +151,8 @@ class Tree {
     std::span<const Outcome> outcomes(const Edge& edge) const {
         return {outcomes_.data() + edge.first_outcome, edge.outcome_count};
     }
-    void append_outcome(Edge& edge, const Outcome& outcome);
+    std::uint32_t append_outcome(Edge& edge, const Outcome& outcome);
+    void reserve_as(const Tree& other);
     void add_weight(Node& node, EdgeId edge, std::int32_t more);
     void add_value_after(Edge& edge, Outcome& outcome);
 

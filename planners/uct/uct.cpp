@@ -36,7 +36,7 @@ constexpr std::size_t decision_share = 16;
 constexpr std::size_t kept_share = 64;
 
 // A tree of so many bytes is freed of what the decision has made unreachable.
-constexpr std::size_t most_garbage = std::size_t{8} << 20;
+constexpr std::size_t most_garbage = std::size_t{64} << 20;
 
 FiniteActions finite_actions(const rddl_simulator& simulator, int most) {
     const solvers::ActionSpace space = solvers::action_space(simulator);
@@ -361,13 +361,10 @@ void Uct::follow(std::size_t k, RandomStream& stream, std::int64_t step) {
     NodeId next = Tree::over;
     if (trees_.is_running(k) && step < end_) {
         const NodeId* const known = tree().find(keys_[k]);
-        const double started = tree().arm(hop.edge).weight;
-        const bool is_full =
-            options_.outcomes > 0 && tree().edge(hop.edge).outcome_count >=
-                                         std::ceil(options_.outcomes * std::sqrt(started));
         if (known) {
             next = *known;
-        } else if (is_full && (next = tree().seen_outcome(hop.edge, stream.unit())) != Tree::over) {
+        } else if (is_full(hop.edge) &&
+                   (next = tree().seen_outcome(hop.edge, stream.unit())) != Tree::over) {
             // Progressive widening: the trial goes on from an outcome that was seen before.
             solvers::require_done(
                 simulator_, simulator_.set_state(trees_.batch(), static_cast<std::int64_t>(k), 1,
@@ -385,6 +382,13 @@ void Uct::follow(std::size_t k, RandomStream& stream, std::int64_t step) {
     }
     hop.outcome = tree().add_outcome(hop.edge, next);
     trial.node = next;
+}
+
+// Whether the edge has as many outcomes as its trials may distinguish.
+bool Uct::is_full(EdgeId edge) const {
+    const double started = tree().arm(edge).weight;
+    return options_.outcomes > 0 &&
+           tree().edge(edge).outcome_count >= std::ceil(options_.outcomes * std::sqrt(started));
 }
 
 void Uct::back_up(const Trial& trial) {

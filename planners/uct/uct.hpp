@@ -112,6 +112,7 @@ class Uct : public Planner {
                              BudgetMeter& meter);
     bool is_unchanged(NodeId id, std::size_t n, std::size_t k) const;
     void note_range();
+    bool is_full(EdgeId edge) const;
     void back_up(const Trial& trial);
     void note_return(double value);
     double value_of(std::size_t k) const;
