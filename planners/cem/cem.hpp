@@ -77,8 +77,8 @@ class Cem : public Planner {
     // Where nothing is better than doing nothing, every other population is drawn as in a new
     // episode: the distribution goes to plans that do little.
     static bool is_fresh(const Memory& memory) { return memory.fruitless % 2 == 1; }
-    // What is better may lie further ahead, or where no noise around plans leads. Whether there is
-    // a new plan to play.
+    // A better plan may lie further ahead, or where no noise around plans leads. Returns whether
+    // there is a new plan to play.
     bool look_elsewhere(Memory& memory, const DecisionPoint& point, RandomStream& stream,
                         BudgetMeter& meter);
     void look_further(Memory& memory, std::int64_t most) const;
@@ -100,7 +100,7 @@ class Cem : public Planner {
     LegalActions legal_;
     std::optional<BasePolicy> base_, recorder_;  // of all lanes; of one environment
     std::optional<Futures> recording_;
-    std::optional<ValueTail> tail_;  // what follows plans, where it is by values
+    std::optional<ValueTail> tail_;                // what follows plans, where it is by values
     std::optional<NoveltySearch> novelty_search_;  // where it was needed before
     EpisodeMemories<Memory> memories_;
     Distribution fresh_;  // of a new episode

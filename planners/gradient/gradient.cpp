@@ -1,3 +1,4 @@
+// Over 400 lines: one search, from its options to its explanation.
 #include "planners/gradient/gradient.hpp"
 
 #include "planners/simulation/mean_and_error.hpp"

@@ -1,5 +1,5 @@
-// What a planner knows of the episodes that it acts in, where their states are hidden: particles
-// that have met the same observations after the same actions.
+// The knowledge that a planner has of episodes whose states are hidden: particles that have met the
+// same observations after the same actions.
 #pragma once
 
 #include "planners/planner/planner.hpp"

@@ -98,7 +98,7 @@ void FiniteActions::find_legal(const Origin& origin, std::vector<std::uint8_t>& 
     if (std::ranges::find(legal, 1) == legal.end()) legal.assign(count_, 1);
 }
 
-// Those that are illegal in that environment become so.
+// Actions that are illegal in that environment become so.
 void FiniteActions::ask(const rddl_batch* batch, std::int64_t place,
                         std::vector<std::uint8_t>& legal) {
     if (!lanes_) {

@@ -171,7 +171,7 @@ bool HistorySearch::run_trials(const DecisionPoint& point, RandomStream& stream,
     return true;
 }
 
-// Those in the tree by its values, the others by the policy.
+// Trials in the tree act by its values, the others by the policy.
 void HistorySearch::choose_actions(const DecisionPoint& point, RandomStream& stream) {
     for (std::size_t k = 0; k < trials_.size(); ++k) plays_on_[k] = trials_[k].node == 0;
     policies_[policy_].act(futures_, plays_on_, actions_.data(), point.stops);

@@ -15,7 +15,7 @@ struct UctOptions : CommonOptions {
     int actions = 4096;        // at most
     double exploration = 0.5;  // in ranges of the returns
     double outcomes = 4;       // of an action that was taken n times, at most outcomes * sqrt(n)
-    // Of actions that cannot be listed a node with n trials has width * n^widening at most.
+    // A node with n trials has at most width * n^widening actions, where they cannot be listed.
     double width = 1, widening = 0.5;
     Backup backup = Backup::Max;
     int lookahead = 256;  // states that a search in the determinised problem may meet
