@@ -68,9 +68,9 @@ class Collector {
     void describe(Scalar, const Load& load) {
         const Buffer& buffer = program_[load.buffer];
         properties_.uniform &= is_constant(load.buffer);
-        properties_.range = is_constant(load.buffer)        ? tables_.range(program_, load.buffer)
-                            : buffer.scalar == Scalar::Real ? buffer.range
-                                                            : object_range(buffer);
+        properties_.range = is_constant(load.buffer) ? tables_.range(program_, load.buffer)
+                            : buffer.range           ? buffer.range
+                                                     : object_range(buffer);
     }
 
     // The range of a fluent whose values are objects.
@@ -125,7 +125,9 @@ class Collector {
     std::optional<Range> range_of_ints(const Apply& apply,
                                        std::span<const std::optional<Range>> operands) const {
         if (apply.op == Operator::CountOnes) return Range{0, most_ones(apply.operands.front())};
-        if (apply.op != Operator::Add && apply.op != Operator::Subtract) return std::nullopt;
+        const bool has_range = is_one_of(
+            apply.op, {Operator::Add, Operator::Subtract, Operator::Minimum, Operator::Maximum});
+        if (!has_range) return std::nullopt;
         const auto range = range_of(apply.op, operands);
         const bool is_exact = range && range->lower > -exact_ints && range->upper < exact_ints;
         return is_exact ? range : std::nullopt;

@@ -145,7 +145,12 @@ class BlockCost {
         if (!paid_.insert({id, where}).second) return;
         pay(own_cost(program_, node), where, kind_of(id));
         const std::vector<NodeId> operands = operands_of(node);
-        for (std::size_t i = 0; i < operands.size(); ++i) add(operands[i], around(node, i, where));
+        for (std::size_t i = 0; i < operands.size(); ++i)
+            if (!is_rare(node, i)) add(operands[i], around(node, i, where));
+    }
+    static bool is_rare(const Node& node, std::size_t operand) {
+        const auto* select = std::get_if<Select>(&node.form);
+        return select && select->evaluated == Evaluated::MostlyFirst && operand == 2;
     }
 
     // Where an operand stands of a node at this place: the body of a binder is its first one.

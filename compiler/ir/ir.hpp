@@ -197,6 +197,7 @@ enum class Evaluated : std::uint8_t {
     Branch,    // the branch that is taken; in packs those that a lane takes
     PackBoth,  // the branch that is taken; in packs both
     Both,
+    MostlyFirst,  // the branch that is taken, which is hardly ever the second one
 };
 // Lazy: the branch not taken is not evaluated, so it cannot fault.
 struct Select {

@@ -296,6 +296,7 @@ class Verifier {
         const Properties& second = properties_[form.else_value.index];
         switch (form.evaluated) {
             case Evaluated::Branch:
+            case Evaluated::MostlyFirst:
                 return true;
             case Evaluated::PackBoth:
                 return is_droppable(first) && is_droppable(second);

@@ -387,7 +387,7 @@ tree::Expression FunctionBody::branch(const ir::Select& select) {
     lambdas.push_back(last);
 
     tree::Expressions arguments;
-    if (select.evaluated == ir::Evaluated::Branch) {
+    if (select.evaluated != ir::Evaluated::PackBoth) {
         expressions_.uses().context = true;
         arguments.push_back(tree::word(expressions_.context()));
     }

@@ -71,11 +71,19 @@ RDDL_INLINE auto at(const Table& table, const ManyObjects<n, L>& objects) {
     else
         return load_many<n>(first);
 }
-template <class Table, int n, class L, class Places>
-RDDL_INLINE auto at_places(const Table& table, const ManyObjects<n, L>& objects,
-                           const Places& places) {
-    return choose_many<n, detail::Nested<Table>::count>(
-        &detail::first_part<0>(table), &detail::first_part<0>(places) + objects.first);
+template <const auto& places, class Table, int n, class L>
+RDDL_INLINE auto at_places(const Table& table, const ManyObjects<n, L>& objects) {
+    using Many = ManyBools<typename L::Bool, n>;
+    const auto* const elements = &detail::first_part<0>(table);
+    const auto* const first = &detail::first_part<0>(places) + objects.first;
+    constexpr bool are_few =
+        detail::Nested<std::remove_cvref_t<decltype(places)>>::count <= most_places_in_lines;
+    if constexpr (L::width == 1 || !are_few)
+        return choose_many<n, detail::Nested<Table>::count>(elements, first);
+    else
+        return choose_many<n, detail::Nested<Table>::count>(
+            elements, first,
+            lines_of_places<places, Many::part_width>.data() + objects.first / Many::part_width);
 }
 template <class Table, int n, class L>
 RDDL_INLINE auto elements(Table& table, const ManyObjects<n, L>& objects) {

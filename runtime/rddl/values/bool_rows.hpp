@@ -215,6 +215,7 @@ template <int n>
 RDDL_ALWAYS_INLINE void read_narrow_rows(const std::byte* rows, std::int64_t row_size,
                                          std::int64_t count, Mask<n>* masks) {
     const std::int64_t byte_count = (n - 1) * row_size + count;
+#pragma GCC unroll 16
     for (std::int64_t k = 0; k < count; ++k) {
         std::uint64_t column = 0;
         int lanes = 0;

@@ -54,8 +54,8 @@ constexpr auto constants = [] {
 }();
 
 // Objects in loops over several at once and in loops over many.
-template <class L, std::size_t n, std::size_t size, class Places>
-void expect_the_same(const Places& places) {
+template <class L, std::size_t n, std::size_t size, const auto& places>
+void expect_the_same_at() {
     std::array<typename L::Bool, size> from;
     for (std::size_t i = 0; i < size; ++i) from[i] = bool_at<L>(i);
     std::array<typename L::Element, n> chance;
@@ -63,13 +63,13 @@ void expect_the_same(const Places& places) {
     const typename L::Bool flag = bool_at<L>(3);
     const auto body = [&](Tables<L, n>& to) {
         return [&](auto& several, auto x) {
-            elements(to.on, x) = select(at(constants<n>, x), !at_places(from, x, places), flag);
+            elements(to.on, x) = select(at(constants<n>, x), !at_places<places>(from, x), flag);
             elements(to.chosen, x) = branch(
                 flag && at(constants<n>, x), [&] { return true; },
                 [&] { return flag != at(constants<n>, x); }, [&] { return false; },
-                [&] { return at_places(from, x, places) == flag; });
+                [&] { return at_places<places>(from, x) == flag; });
             elements(to.drawn, x) = branch(
-                several, at_places(from, x, places) && at(constants<n>, x),
+                several, at_places<places>(from, x) && at(constants<n>, x),
                 [&] {
                     return sample::valid_bernoulli(several, {0, x}, at(chance, x));
                 },
@@ -93,11 +93,24 @@ void expect_the_same(const Places& places) {
     expect(expected.drawn_everywhere, result.drawn_everywhere);
 }
 
+template <std::size_t n, std::size_t size, class Place>
+constexpr auto places_of = [] {
+    std::array<Place, n> places{};
+    for (std::size_t i = 0; i < n; ++i) places[i] = static_cast<Place>((11 * i + size - 1) % size);
+    return places;
+}();
+// Places that follow each other, that are equal, and others, each for 40 objects.
+template <std::size_t n, std::size_t size, class Place>
+constexpr auto lines_of = [] {
+    std::array<Place, n> places{};
+    for (std::size_t i = 0; i < n; ++i)
+        places[i] = static_cast<Place>((i / 40 % 3 == 0 ? i : i / 40 % 3 == 1 ? 5 : 11 * i) % size);
+    return places;
+}();
 template <class L, std::size_t n, std::size_t size, class Place>
 void expect_the_same() {
-    std::array<Place, n> places;
-    for (std::size_t i = 0; i < n; ++i) places[i] = static_cast<Place>((11 * i + size - 1) % size);
-    expect_the_same<L, n, size>(places);
+    expect_the_same_at<L, n, size, places_of<n, size, Place>>();
+    expect_the_same_at<L, n, size, lines_of<n, size, Place>>();
 }
 
 // Full registers and parts of them, and tables that registers can look up and greater ones.
