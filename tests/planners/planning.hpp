@@ -1,6 +1,7 @@
 // Problems that planners are tested with, and what they do there.
 #pragma once
 
+#include "engines/load_simulator.hpp"
 #include "planner_coin.h"
 #include "planner_ladder.h"
 #include "planner_mountain_car.h"
@@ -43,6 +44,17 @@ inline const rddl_simulator& network() {
 }
 inline const rddl_simulator& maze() {
     return *rddl_simulator_t_maze_t_maze_1();
+}
+
+// One of tests/planners/problems.
+inline workbench::LoadedProblem interpreted(const std::string& name) {
+    workbench::ProblemFiles files;
+    files.name = name;
+    files.domain = PROBLEMS "/" + name + "/domain.rddl";
+    files.instance = PROBLEMS "/" + name + "/instance.rddl";
+    workbench::LoadOptions load;
+    load.engine = workbench::Engine::Interpreter;
+    return workbench::load_problem(files, load);
 }
 
 inline PolicySettings settings_of(const rddl_simulator& simulator) {
