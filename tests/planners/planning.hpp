@@ -1,6 +1,7 @@
 // Problems that planners are tested with, and what they do there.
 #pragma once
 
+#include "engines/load_simulator.hpp"
 #include "planner_coin.h"
 #include "planner_ladder.h"
 #include "planner_lock.h"
@@ -70,6 +71,17 @@ inline solvers::Policy policy_that_knows_the_ladder(const rddl_simulator& simula
         };
     };
     return policy;
+}
+
+// One of tests/planners/problems.
+inline workbench::LoadedProblem interpreted(const std::string& name) {
+    workbench::ProblemFiles files;
+    files.name = name;
+    files.domain = PROBLEMS "/" + name + "/domain.rddl";
+    files.instance = PROBLEMS "/" + name + "/instance.rddl";
+    workbench::LoadOptions load;
+    load.engine = workbench::Engine::Interpreter;
+    return workbench::load_problem(files, load);
 }
 
 inline PolicySettings settings_of(const rddl_simulator& simulator) {
