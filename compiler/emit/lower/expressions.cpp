@@ -138,7 +138,14 @@ Expression Expressions::lower(const ir::Node&, const ir::Bits& bits) {
     const std::string first = bits.first == 0 ? "" : "<" + std::to_string(bits.first) + ">";
     const bool of_action = unit_.program[bits.buffer].storage == ir::Storage::Action;
     const std::string function = of_action ? "rddl::action_bits" : "rddl::bits";
-    return tree::call(function + first, {record(bits.buffer)});
+    return tree::call(function + first, {elements(record(bits.buffer), bits.indices)});
+}
+
+// "rddl::union_of(moves_, rddl::bits(state.at[c]), action.move[c])"
+Expression Expressions::lower(const ir::Node&, const ir::Union& form) {
+    tree::Expressions arguments = {record(form.masks), lower(form.bits)};
+    append(arguments, all_of(form.row));
+    return tree::call("rddl::union_of", std::move(arguments));
 }
 
 Expression Expressions::lower(const ir::Node&, const ir::Local& local) {

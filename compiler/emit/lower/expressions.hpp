@@ -114,6 +114,7 @@ class Expressions {
     tree::Expression lower(const ir::Node& node, const ir::Load& load);
     tree::Expression lower(const ir::Node& node, const ir::Search& search);
     tree::Expression lower(const ir::Node& node, const ir::Bits& bits);
+    tree::Expression lower(const ir::Node& node, const ir::Union& form);
     tree::Expression lower(const ir::Node& node, const ir::Element& element);
     tree::Expression lower(const ir::Node& node, const ir::Local& local);
     tree::Expression lower(const ir::Node& node, const ir::Convert& convert);

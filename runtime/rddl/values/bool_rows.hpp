@@ -283,4 +283,18 @@ Lanes<std::int64_t, n> bits_in_lanes(const Mask<n>* masks) {
     return ints_of(bits);
 }
 
+// The reverse: the lowest `count` <= 64 bits of each lane.
+template <int count, int n>
+void store_lanes(const Lanes<std::int64_t, n>& lanes, Mask<n>* masks) {
+    const Lanes<std::uint64_t, n> bits = words_of(lanes);
+    constexpr int parts = 8 / bits.part_width;
+    std::array<bit_matrix::BitColumns, n / 8> columns;
+    for (int i = 0; i < n / 8; ++i) {
+        bit_matrix::BitRows rows;
+        std::memcpy(&rows, &bits.part[parts * i], sizeof rows);
+        columns[static_cast<std::size_t>(i)] = bit_matrix::columns_of(rows);
+    }
+    bit_matrix::store_masks(columns, count, masks);
+}
+
 }  // namespace rddl::inline RDDL_SIMD_LEVEL

@@ -118,6 +118,50 @@ TEST(ManyObjects, OfPacks) {
     expect_the_same<Pack<64, float>, 21, 21, std::uint8_t>();
 }
 
+// Object i reads the bools i and 3 i + 1 of few; none, one, some or many of which are true.
+template <class L>
+void expect_the_affected(std::size_t every) {
+    constexpr std::size_t n = 100;
+    std::array<std::uint8_t, n> places;
+    std::array<std::int64_t, n + 1> rows{};
+    std::array<std::int64_t, 2 * n> readers;
+    std::array<typename L::Bool, n> few;
+    for (std::size_t i = 0; i < n; ++i) places[i] = static_cast<std::uint8_t>((3 * i + 1) % n);
+    for (std::size_t k = 0; k < n; ++k) {
+        rows[k + 1] = rows[k];
+        for (std::size_t i = 0; i < n; ++i)
+            if (i == k || places[i] == k)
+                readers[static_cast<std::size_t>(rows[k + 1]++)] = static_cast<std::int64_t>(i);
+        few[k] = typename L::Bool(every != 0 && k % every == every / 2);
+    }
+    std::array<double, n> chance;
+    chance.fill(0.5);
+    std::array<typename L::Bool, n> expected, result;
+    result.fill(typename L::Bool(true));  // what was there does not count
+    const auto body = [&](auto& to) {
+        return [&](auto& several, auto x) {
+            elements(to, x) = branch(
+                several, at(few, x),
+                [&] {
+                    return sample::valid_bernoulli(several, {0, x}, at(chance, x));
+                },
+                [&] { return at_places(few, x, places); });
+        };
+    };
+    Context<L> context = context_of_lanes<L>(), same_context = context_of_lanes<L>();
+    for_each_object(context, n, body(expected));
+    for_affected_objects<n>(same_context, few, rows, readers, result, body(result));
+    for (std::size_t i = 0; i < n; ++i)
+        for (int lane = 0; lane < lanes<L>; ++lane)
+            EXPECT_EQ(get_lane(expected[i], lane), get_lane(result[i], lane)) << every << ' ' << i;
+}
+TEST(ManyObjects, ThatFewBoolsAffect) {
+    for (const std::size_t every : {0, 3, 17, 65, 199}) {
+        expect_the_affected<Scalar>(every);
+        expect_the_affected<Pack<16>>(every);
+    }
+}
+
 // Callers give any byte but 0 for true; in packs they are masks already.
 TEST(ManyObjects, TestTheBytesOfActions) {
     constexpr int n = 100;
