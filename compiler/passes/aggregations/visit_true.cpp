@@ -1,3 +1,4 @@
+// Over 400 lines: one pass, which finds conditions on few bools and makes the visits for them.
 #include "passes/aggregations/visit_true.hpp"
 
 #include "ir/analysis.hpp"
