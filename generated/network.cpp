@@ -90,7 +90,7 @@ struct Simulator {
                 [&] { return true; },
                 [&] {
                     const auto number =
-                        rddl::to_int(rddl::at_places(state.running, c, running_places_));
+                        rddl::to_int(rddl::at_places<running_places_>(state.running, c));
                     const auto term = 0.45 + 0.5 * (rddl::to_real(rddl::wrap_add(1, number)) * 0.5);
                     const auto term_2 = rddl::select(rddl::at(state.running, c), term, 0.05);
                     return rddl::sample::valid_bernoulli(several, {0, c}, term_2);

@@ -135,7 +135,7 @@ struct Simulator {
     static void set_temperature(const State<L>& state, State<L>& next, rddl::Context<L>& context) {
         next.temperature =
             22.0 + 0.8 * (state.temperature - 22.0) +
-            rddl::sample::normal(context, {0, 0}, 0.0, 4.0);
+            rddl::sample::normal(context, rddl::LonePlace{0, 0}, 0.0, 4.0);
     }
 
     // settled(?p)  (domain.rddl:32)

@@ -116,9 +116,9 @@ struct Simulator {
     static void set_course(const State<L>& state, const Action<L>& action, Scratch<L>& scratch,
                            rddl::Context<L>& context) {
         using Real = typename L::Real;
-        const Real draw =
-            rddl::sample::normal(context, {0, 0}, action.turn, 0.01 * rddl::absolute(action.turn));
-        scratch.course = state.heading + draw;
+        const Real term = 0.01 * rddl::absolute(action.turn);
+        scratch.course =
+            state.heading + rddl::sample::normal(context, rddl::LonePlace{0, 0}, action.turn, term);
     }
 
     // distance  (domain.rddl:65)
@@ -127,7 +127,7 @@ struct Simulator {
                              rddl::Context<L>& context) {
         using Real = typename L::Real;
         const Real term = 0.02 * rddl::absolute(action.drive);
-        scratch.distance = rddl::sample::normal(context, {1, 0}, action.drive, term);
+        scratch.distance = rddl::sample::normal(context, rddl::LonePlace{1, 0}, action.drive, term);
     }
 
     // ahead-x  (domain.rddl:67)
@@ -178,7 +178,7 @@ struct Simulator {
                          rddl::Context<L>& context) {
         observation.bump = rddl::branch(
             context, scratch.hit_wall,
-            [&] { return rddl::sample::bernoulli(context, {2, 0}, 0.95); },
+            [&] { return rddl::sample::bernoulli(context, rddl::LonePlace{2, 0}, 0.95); },
             [&] { return false; });
     }
 

@@ -92,7 +92,7 @@ struct Simulator {
         next.goal_is_left = rddl::branch(
             context, state.inside,
             [&] { return state.goal_is_left; },
-            [&] { return rddl::sample::bernoulli(context, {0, 0}, 0.5); });
+            [&] { return rddl::sample::bernoulli(context, rddl::LonePlace{0, 0}, 0.5); });
     }
 
     // inside'  (domain.rddl:43)

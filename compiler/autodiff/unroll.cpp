@@ -109,7 +109,8 @@ class Unroller {
                         run(loop.body);
                     }
                 },
-                [](const ir::Scatter&) {},  // passes make them, which have not run
+                [](const ir::Spread&) {},  // passes make them, which have not run
+                [](const ir::Visit&) {},
                 [&](const ir::Call& call) {
                     throw Failure(fmt::format("there are no derivatives of {}",
                                               name_of(program_, call.callee)),

@@ -68,9 +68,9 @@ class Collector {
     void describe(Scalar, const Load& load) {
         const Buffer& buffer = program_[load.buffer];
         properties_.uniform &= is_constant(load.buffer);
-        properties_.range = is_constant(load.buffer)        ? tables_.range(program_, load.buffer)
-                            : buffer.scalar == Scalar::Real ? buffer.range
-                                                            : object_range(buffer);
+        properties_.range = is_constant(load.buffer) ? tables_.range(program_, load.buffer)
+                            : buffer.range           ? buffer.range
+                                                     : object_range(buffer);
     }
 
     // The range of a fluent whose values are objects.
@@ -87,6 +87,8 @@ class Collector {
     }
 
     void describe(Scalar, const Bits&) { properties_.uniform = false; }
+
+    void describe(Scalar, const Union&) {}
 
     void describe(Scalar, const Element&) {
         properties_.uniform = false;
@@ -123,7 +125,9 @@ class Collector {
     std::optional<Range> range_of_ints(const Apply& apply,
                                        std::span<const std::optional<Range>> operands) const {
         if (apply.op == Operator::CountOnes) return Range{0, most_ones(apply.operands.front())};
-        if (apply.op != Operator::Add && apply.op != Operator::Subtract) return std::nullopt;
+        const bool has_range = is_one_of(
+            apply.op, {Operator::Add, Operator::Subtract, Operator::Minimum, Operator::Maximum});
+        if (!has_range) return std::nullopt;
         const auto range = range_of(apply.op, operands);
         const bool is_exact = range && range->lower > -exact_ints && range->upper < exact_ints;
         return is_exact ? range : std::nullopt;
@@ -138,8 +142,8 @@ class Collector {
         return match(
             program_[id].form, [&](const Constant& constant) { return ones(constant.value); },
             [&](const Bits& bits) {
-                return std::min(64.0,
-                                static_cast<double>(program_[bits.buffer].count() - bits.first));
+                return static_cast<double>(std::min<std::int64_t>(
+                    64, program_[bits.buffer].row_size(bits.indices.size()) - bits.first));
             },
             [&](const Load& load) {
                 return is_constant(load.buffer) ? tables_.most_ones(program_, load.buffer) : 64.0;
@@ -307,11 +311,17 @@ void append_roots(const Statement& statement, std::vector<NodeId>& roots) {
             roots.insert(roots.end(), store.indices.begin(), store.indices.end());
             roots.push_back(store.value);
         },
+        [&](const Spread& spread) {
+            roots.insert(roots.end(), spread.indices.begin(), spread.indices.end());
+            roots.push_back(spread.bits);
+        },
         [&](const Loop& loop) { append_roots(loop.body, roots); },
-        [&](const Scatter& scatter) {
-            roots.push_back(scatter.condition);
-            roots.insert(roots.end(), scatter.indices.begin(), scatter.indices.end());
-            roots.push_back(scatter.value);
+        [&](const Visit& visit) {
+            roots.push_back(visit.condition);
+            for (const Mark& mark : visit.marks) {
+                roots.insert(roots.end(), mark.indices.begin(), mark.indices.end());
+                roots.push_back(mark.condition);
+            }
         },
         [&](const Call& call) {
             const std::vector<NodeId> operands = operands_of(call);
@@ -399,7 +409,12 @@ std::vector<NodeId> operands_of(const Node& node) {
         node.form, [](const Constant&) { return std::vector<NodeId>{}; },
         [](const Index&) { return std::vector<NodeId>{}; },
         [](const Local&) { return std::vector<NodeId>{}; },
-        [](const Bits&) { return std::vector<NodeId>{}; },
+        [](const Bits& bits) { return bits.indices; },
+        [](const Union& form) {
+            std::vector operands = form.row;
+            operands.push_back(form.bits);
+            return operands;
+        },
         [](const Load& load) { return load.indices; },
         [](const Search& search) { return std::vector{search.value}; },
         [](const Element& element) { return std::vector{element.place}; },
@@ -443,7 +458,8 @@ std::vector<const Block*> blocks_of(const Program& program) {
 bool fills_tables(const Block& block) {
     bool fills = false;
     for_each_statement<Store>(block, [&](const Store&) { fills = true; });
-    for_each_statement<Scatter>(block, [&](const Scatter&) { fills = true; });
+    for_each_statement<Spread>(block, [&](const Spread&) { fills = true; });
+    for_each_statement<Visit>(block, [&](const Visit&) { fills = true; });
     for_each_statement<Call>(block, [&](const Call&) { fills = true; });
     return fills;
 }
@@ -471,6 +487,7 @@ std::optional<BufferId> buffer_read_by(const Node& node) {
         node.form, [](const Load& load) { return std::optional(load.buffer); },
         [](const Search& search) { return std::optional(search.table); },
         [](const Bits& bits) { return std::optional(bits.buffer); },
+        [](const Union& form) { return std::optional(form.masks); },
         [](const Interval& interval) { return std::optional(interval.table); },
         [](const Element& element) { return std::optional(element.buffer); },
         [](const auto&) { return std::optional<BufferId>(); });

@@ -56,7 +56,7 @@ inline bool is_droppable(const Properties& properties) {
 std::vector<NodeId> operands_of(const Node& node);
 // The place of a node that draws or may fault.
 std::optional<Place> place_of(const Node& node);
-// The buffer that a node itself reads (Load, Search, Bits, Element).
+// The buffer that a node itself reads (Load, Search, Bits, Union, Element, Interval).
 std::optional<BufferId> buffer_read_by(const Node& node);
 // The variable that a node binds in its body (Reduce, DiscreteOver).
 std::optional<VariableId> bound_variable(const Node& node);

@@ -49,6 +49,12 @@ class Key {
     void add(const Bits& form) {
         add(form.buffer);
         add(static_cast<std::uint64_t>(form.first));
+        add(form.indices);
+    }
+    void add(const Union& form) {
+        add(form.masks);
+        add(form.row);
+        add(form.bits);
     }
     void add(const Element& form) {
         add(form.buffer);
@@ -206,8 +212,12 @@ NodeId Builder::search(BufferId table, NodeId value) {
     return intern({Scalar::Int, Search{table, value}});
 }
 
-NodeId Builder::bits(BufferId buffer, std::int64_t first) {
-    return intern({Scalar::Int, Bits{buffer, first}});
+NodeId Builder::bits(BufferId buffer, std::int64_t first, std::vector<NodeId> indices) {
+    return intern({Scalar::Int, Bits{buffer, first, std::move(indices)}});
+}
+
+NodeId Builder::united(BufferId masks, std::vector<NodeId> row, NodeId bits) {
+    return intern({Scalar::Int, Union{masks, std::move(row), bits}});
 }
 
 NodeId Builder::element(BufferId buffer, NodeId place) {
@@ -307,7 +317,8 @@ NodeId Builder::rebuild(const Node& node) {
         [&](const Index& form) { return index(form.variable); },
         [&](const Load& form) { return load(form.buffer, form.indices, form.gather); },
         [&](const Search& form) { return search(form.table, form.value); },
-        [&](const Bits& form) { return bits(form.buffer, form.first); },
+        [&](const Bits& form) { return bits(form.buffer, form.first, form.indices); },
+        [&](const Union& form) { return united(form.masks, form.row, form.bits); },
         [&](const Element& form) { return element(form.buffer, form.place); },
         [&](const Local& form) { return local(form.local, node.type); },
         [&](const Convert& form) { return convert(form.operand, node.type, form.skips_int); },

@@ -33,7 +33,8 @@ class Builder {
     NodeId load(BufferId buffer, std::vector<NodeId> indices, Gather gather = Gather::None);
     NodeId search(BufferId table, NodeId value);
     // `buffer` is not a Constant.
-    NodeId bits(BufferId buffer, std::int64_t first);
+    NodeId bits(BufferId buffer, std::int64_t first, std::vector<NodeId> indices = {});
+    NodeId united(BufferId masks, std::vector<NodeId> row, NodeId bits);
     // `buffer` is not a Constant.
     NodeId element(BufferId buffer, NodeId place);
     NodeId local(LocalId local, Scalar type);

@@ -69,8 +69,10 @@ std::vector<BufferId> written_buffers(const Call& call) {
 std::set<BufferId> written_buffers(const Block& block) {
     std::set<BufferId> written;
     for_each_statement<Store>(block, [&](const Store& store) { written.insert(store.target); });
-    for_each_statement<Scatter>(block,
-                                [&](const Scatter& scatter) { written.insert(scatter.target); });
+    for_each_statement<Spread>(block, [&](const Spread& spread) { written.insert(spread.target); });
+    for_each_statement<Visit>(block, [&](const Visit& visit) {
+        for (const Mark& mark : visit.marks) written.insert(mark.target);
+    });
     for_each_statement<Call>(block, [&](const Call& call) {
         for (BufferId buffer : written_buffers(call)) written.insert(buffer);
     });

@@ -17,6 +17,11 @@
 namespace rddlc::ir {
 namespace {
 
+// One bit or two are 1.
+constexpr double union_cost = 4;
+// Packs turn the bits of lanes into masks.
+constexpr double spread_cost = 8;
+
 double size_of(const Program& program, VariableId variable) {
     return static_cast<double>(program[variable].size);
 }
@@ -68,10 +73,13 @@ class BlockCost {
             match(
                 statement.form, [](const Let&) {},
                 [&](const Store& store) { stored_[store.target] = place; },
+                [&](const Spread& spread) { stored_[spread.target] = place; },
                 [&](const Loop& loop) {
                     collect_stores(loop.body, inside(place, loop.variable, times_of(loop)));
                 },
-                [&](const Scatter& scatter) { stored_[scatter.target] = place; },
+                [&](const Visit& visit) {
+                    for (const Mark& mark : visit.marks) stored_[mark.target] = place;
+                },
                 [&](const Call& call) { stored_[call.output.buffer] = place; });
         }
     }
@@ -89,6 +97,11 @@ class BlockCost {
         for (const NodeId index : store.indices) add(index, place);
         pay(1, place, kind_of_value(store.value));
     }
+    void add(const Spread& spread, Place place) {
+        add(spread.bits, place);
+        for (const NodeId index : spread.indices) add(index, place);
+        pay(spread_cost, place, &PackCost::numbers);
+    }
     void add(const Loop& loop, Place place) {
         const double times = times_of(loop);
         pay(times, place, &PackCost::block);
@@ -102,17 +115,19 @@ class BlockCost {
         return std::ceil(size_of(program_, loop.variable) / at_once);
     }
     // Words of bools show which ones are true: those of the initial state, one at least.
-    void add(const Scatter& scatter, Place place) {
-        const double size = size_of(program_, scatter.visited);
-        const double words =
-            (size + static_cast<double>(program_[scatter.target].count())) / bools_at_once;
-        pay(std::ceil(words), place, &PackCost::block);
-        const Place visit = inside(place, scatter.visited, 1);
-        const double entries = size_of(program_, scatter.entry) / size;
-        const Place each = inside(visit, scatter.entry, std::max(1.0, entries));
-        for (const NodeId index : scatter.indices) add(index, each);
-        add(scatter.value, each);
-        pay(1, each, &PackCost::block);
+    void add(const Visit& visit, Place place) {
+        const double size = size_of(program_, visit.visited);
+        pay(std::ceil(size / bools_at_once), place, &PackCost::block);
+        Place each = inside(place, visit.visited, 1);
+        if (visit.entries) {
+            const double entries = size_of(program_, visit.entries->variable) / size;
+            each = inside(each, visit.entries->variable, std::max(1.0, entries));
+        }
+        for (const Mark& mark : visit.marks) {
+            for (const NodeId index : mark.indices) add(index, each);
+            add(mark.condition, each);
+            pay(1, each, &PackCost::block);
+        }
     }
     // It reads its tables and fills its output.
     void add(const Call& call, Place place) {
@@ -130,7 +145,12 @@ class BlockCost {
         if (!paid_.insert({id, where}).second) return;
         pay(own_cost(program_, node), where, kind_of(id));
         const std::vector<NodeId> operands = operands_of(node);
-        for (std::size_t i = 0; i < operands.size(); ++i) add(operands[i], around(node, i, where));
+        for (std::size_t i = 0; i < operands.size(); ++i)
+            if (!is_rare(node, i)) add(operands[i], around(node, i, where));
+    }
+    static bool is_rare(const Node& node, std::size_t operand) {
+        const auto* select = std::get_if<Select>(&node.form);
+        return select && select->evaluated == Evaluated::MostlyFirst && operand == 2;
     }
 
     // Where an operand stands of a node at this place: the body of a binder is its first one.
@@ -271,9 +291,11 @@ double own_cost(const Program& program, const Node& node) {
             return 2 * std::ceil(std::log2(size + 1));
         },
         [&](const Bits& bits) {
-            const std::int64_t count = program[bits.buffer].count() - bits.first;
+            const std::int64_t count =
+                program[bits.buffer].row_size(bits.indices.size()) - bits.first;
             return static_cast<double>(std::min<std::int64_t>(count, 64));
         },
+        [](const Union&) { return union_cost; },
         [](const Apply& apply) { return cost_of(apply.op); }, [](const Select&) { return 1.0; },
         [&](const Reduce&) { return repetitions(program, node); },
         [&](const Sample&) { return draw_cost + (node.type == Scalar::Real ? quantile_cost : 0); },

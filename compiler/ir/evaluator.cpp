@@ -191,27 +191,41 @@ void Evaluator::run(const Block& block, Frame& frame) const {
                     run(loop.body, frame);
                 }
             },
-            [&](const Scatter& form) { scatter(form, frame); },
+            [&](const Spread& form) { spread(form, frame); },
+            [&](const Visit& form) { visit(form, frame); },
             [&](const Call& form) { call(form, frame); });
     }
 }
 
-void Evaluator::scatter(const Scatter& form, Frame& frame) const {
-    const Origin origin = origins_[form.target.index];
-    std::fill_n(frame.records_.begin[origin.record] + origin.offset,
-                (*program_)[form.target].count(), std::byte{0});
+void Evaluator::spread(const Spread& form, Frame& frame) const {
+    const auto bits = static_cast<std::uint64_t>(value<std::int64_t>(form.bits, frame));
+    std::byte* const row = element(form.target, form.indices, frame);
+    const std::int64_t count = (*program_)[form.target].row_size(form.indices.size());
+    for (std::int64_t i = 0; i < count; ++i) write(row + i, (bits >> i & 1) != 0);
+}
+
+void Evaluator::visit(const Visit& form, Frame& frame) const {
     for (std::int64_t i = 0; i < (*program_)[form.visited].size; ++i) {
         frame.set(form.visited, i);
         if (!value<bool>(form.condition, frame)) continue;
+        if (!form.entries) {
+            mark(form.marks, frame);
+            continue;
+        }
         const auto bound = [&](std::int64_t row) {
-            return std::get<std::int64_t>((*program_)[form.rows].values[row]);
+            return std::get<std::int64_t>((*program_)[form.entries->rows].values[row]);
         };
         for (std::int64_t entry = bound(i); entry < bound(i + 1); ++entry) {
-            frame.set(form.entry, entry);
-            if (value<bool>(form.value, frame))
-                write(element(form.target, form.indices, frame), true);
+            frame.set(form.entries->variable, entry);
+            mark(form.marks, frame);
         }
     }
+}
+
+void Evaluator::mark(const std::vector<Mark>& marks, Frame& frame) const {
+    for (const Mark& each : marks)
+        if (value<bool>(each.condition, frame))
+            write(element(each.target, each.indices, frame), each.value);
 }
 
 void Evaluator::let(const Let& form, Frame& frame) const {
@@ -341,6 +355,10 @@ T Evaluator::value(NodeId id, Frame& frame) const {
                      if constexpr (is_int) return bits(form, frame);
                      own_mistake("a form of the IR has no value of this type");
                  },
+                 [&](const Union& form) -> T {
+                     if constexpr (is_int) return united(form, frame);
+                     own_mistake("a form of the IR has no value of this type");
+                 },
                  [&](const Element& form) -> T {
                      if constexpr (std::is_same_v<T, bool>) return element_at(form, frame);
                      own_mistake("a form of the IR has no value of this type");
@@ -381,12 +399,22 @@ std::int64_t Evaluator::search(const Search& form, Frame& frame) const {
 }
 
 std::int64_t Evaluator::bits(const Bits& form, Frame& frame) const {
-    const std::byte* const bools = element(form.buffer, {}, frame) + form.first;
-    const std::int64_t count = (*program_)[form.buffer].count() - form.first;
+    const std::byte* const bools = element(form.buffer, form.indices, frame) + form.first;
+    const std::int64_t count = (*program_)[form.buffer].row_size(form.indices.size()) - form.first;
     std::uint64_t bits = 0;
     for (std::int64_t i = 0; i < std::min<std::int64_t>(count, 64); ++i)
         bits |= std::uint64_t{bools[i] != std::byte{0}} << i;
     return static_cast<std::int64_t>(bits);
+}
+
+std::int64_t Evaluator::united(const Union& form, Frame& frame) const {
+    const Buffer& table = (*program_)[form.masks];
+    const std::int64_t first = row_major(form.masks, form.row, frame);
+    auto bits = static_cast<std::uint64_t>(value<std::int64_t>(form.bits, frame));
+    std::int64_t all = 0;
+    for (; bits != 0; bits &= bits - 1)
+        all |= std::get<std::int64_t>(table.values[first + std::countr_zero(bits)]);
+    return all;
 }
 
 bool Evaluator::element_at(const Element& form, Frame& frame) const {

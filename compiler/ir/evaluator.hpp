@@ -109,7 +109,9 @@ class Evaluator {
     std::byte* element(BufferId id, const std::vector<NodeId>& indices, Frame& frame) const;
     rddl::Place place(const std::optional<Place>& place, Frame& frame) const;
     void store(const Store& store, Frame& frame) const;
-    void scatter(const Scatter& scatter, Frame& frame) const;
+    void spread(const Spread& spread, Frame& frame) const;
+    void visit(const Visit& visit, Frame& frame) const;
+    void mark(const std::vector<Mark>& marks, Frame& frame) const;
     void let(const Let& let, Frame& frame) const;
     void call(const Call& call, Frame& frame) const;
     template <class Callee>
@@ -121,6 +123,7 @@ class Evaluator {
     bool apply_to_bools(const Apply& form, Frame& frame) const;
     std::int64_t search(const Search& form, Frame& frame) const;
     std::int64_t bits(const Bits& form, Frame& frame) const;
+    std::int64_t united(const Union& form, Frame& frame) const;
     bool element_at(const Element& form, Frame& frame) const;
     template <class T>
     T convert_operand(const Convert& form, Frame& frame) const;

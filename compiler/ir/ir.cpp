@@ -14,6 +14,11 @@ std::string_view name_of(RealType real) {
 
 namespace rddlc::ir {
 
+std::int64_t Buffer::row_size(std::size_t leading) const {
+    return std::accumulate(shape.begin() + static_cast<std::ptrdiff_t>(leading), shape.end(),
+                           std::int64_t{1}, std::multiplies<>());
+}
+
 std::int64_t Buffer::count() const {
     return std::accumulate(shape.begin(), shape.end(), std::int64_t{1}, std::multiplies<>());
 }

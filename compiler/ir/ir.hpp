@@ -95,6 +95,8 @@ struct Buffer {
     bool holds_places = false;
 
     std::int64_t count() const;
+    // The number of elements that so many leading indices have in common.
+    std::int64_t row_size(std::size_t leading) const;
     // Its readers get what the step has computed. Actions and observations may come from elsewhere,
     // also in a program whose policy computes them.
     bool is_computed_in_step() const {
@@ -150,12 +152,21 @@ struct Search {
     NodeId value;
     bool operator==(const Search&) const = default;
 };
-// The elements [first, first + 64) of a table of bools, in row-major order, as the bits of an Int,
-// the first one lowest; bits beyond its end are 0.
+// The elements [first, first + 64) of a table of bools, or of the row that leading indices choose,
+// in row-major order, as the bits of an Int, the first one lowest; bits beyond its end are 0.
 struct Bits {
     BufferId buffer;
     std::int64_t first;
+    std::vector<NodeId> indices = {};  // Int, of the leading dimensions, in range by construction
     bool operator==(const Bits&) const = default;
+};
+// The bits that one mask at least has, of the masks that are chosen by the bits of an Int: bit i
+// chooses element i of a row of a constant table of Ints, whose last dimension is at most 64.
+struct Union {
+    BufferId masks;
+    std::vector<NodeId> row;  // Int, one for each dimension but the last, in range by construction
+    NodeId bits;              // Int, 0 beyond the end of the row
+    bool operator==(const Union&) const = default;
 };
 // The element of a table of bools that has this place in row-major order.
 struct Element {
@@ -186,6 +197,7 @@ enum class Evaluated : std::uint8_t {
     Branch,    // the branch that is taken; in packs those that a lane takes
     PackBoth,  // the branch that is taken; in packs both
     Both,
+    MostlyFirst,  // the branch that is taken, which is hardly ever the second one
 };
 // Lazy: the branch not taken is not evaluated, so it cannot fault.
 struct Select {
@@ -248,7 +260,7 @@ struct Fault {
 
 struct Node {
     Scalar type;
-    std::variant<Constant, Index, Load, Search, Bits, Element, Local, Convert, Apply, Select,
+    std::variant<Constant, Index, Load, Search, Bits, Union, Element, Local, Convert, Apply, Select,
                  Reduce, Sample, Discrete, DiscreteOver, Interval, Fault>
         form;
     bool operator==(const Node&) const = default;
@@ -269,6 +281,18 @@ struct Store {
     std::vector<NodeId> indices;
     NodeId value;
 };
+// Fills a row of a table of bools, of at most 64 elements in row-major order, with the bits of an
+// Int, the lowest one first.
+struct Spread {
+    BufferId target;              // Scratch or Next
+    std::vector<NodeId> indices;  // of the leading dimensions
+    NodeId bits;
+};
+// The bools of a loop are false except for objects that read a true element of another table.
+struct Affected {
+    BufferId few;            // a table of bools, as many as the loop has objects
+    BufferId rows, objects;  // constant ints: element i is read by objects[rows[i]], ...
+};
 struct Loop {
     VariableId variable;
     Block body;
@@ -278,18 +302,28 @@ struct Loop {
     // Then: its values are bools alone, and a register holds those of many objects
     // (passes/analyses/bool_words.hpp).
     bool as_words = false;
+    // Then: one environment computes those alone (passes/lanes/visit_affected.hpp).
+    std::optional<Affected> affected = {};
 };
-// Fills a table of bools by the few that are true of another one. All its elements are false but
-// those at `indices` for which there are a visited object and an entry of its row of a sparse
-// table with a true condition and a true value: which of them are evaluated makes no difference.
-struct Scatter {
-    BufferId target;              // Scratch, Bool
-    VariableId visited;           // all objects whose condition is true
-    NodeId condition;             // the element of a table of bools of one dimension at `visited`
-    VariableId entry;             // from rows[visited] up to rows[visited + 1]
-    BufferId rows;                // constant ints
-    std::vector<NodeId> indices;  // of the target, from `visited` and `entry`
-    NodeId value;                 // Bool; neither faults nor draws
+// An element that gets a value where a condition is true; else it stays as it is.
+struct Mark {
+    BufferId target;              // Scratch or Next, Bool
+    std::vector<NodeId> indices;  // from what the visit binds
+    NodeId condition;             // Bool; neither faults nor draws, nor reads what the visit marks
+    bool value;                   // the same of all marks of a target
+};
+// The entries of an object in a sparse table: from rows[object] up to rows[object + 1].
+struct Entries {
+    VariableId variable;
+    BufferId rows;  // constant ints
+};
+// Visits the objects of which few are true. The order of the visits makes no difference, nor do
+// those of objects that are not true, if none of them marks anything.
+struct Visit {
+    VariableId visited;  // all objects whose condition is true
+    NodeId condition;    // the element of a table of bools of one dimension at `visited`
+    std::optional<Entries> entries;  // absent: the marks are made once for each object
+    std::vector<Mark> marks;
 };
 // A part of a buffer: the leading dimensions have indices, the others are passed whole.
 struct TableView {
@@ -309,7 +343,7 @@ struct Call {
     std::optional<Place> place;  // exactly for draws; the elements are draws of one place
 };
 struct Statement {
-    std::variant<Let, Store, Loop, Scatter, Call> form;
+    std::variant<Let, Store, Spread, Loop, Visit, Call> form;
 };
 
 // A function that the user gives in C++ (--extern).

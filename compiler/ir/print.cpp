@@ -251,27 +251,35 @@ class Printer {
     void print(const Store& store) {
         writer_.line(element(store.target, store.indices) + " = " + expression(store.value));
     }
+    void print(const Spread& spread) {
+        writer_.line(fmt::format("spread {} = {}", element(spread.target, spread.indices),
+                                 expression(spread.bits)));
+    }
     void print(const Loop& loop) {
         const char* const how = loop.as_words          ? ", as words"
                                 : loop.several_at_once ? ", several at once"
                                                        : "";
-        writer_.line(fmt::format("for {}{}", binding(loop.variable), how)).indent();
+        const std::string affected =
+            loop.affected ? ", affected by " + element(loop.affected->few, {}) : "";
+        writer_.line(fmt::format("for {}{}{}", binding(loop.variable), how, affected)).indent();
         block(loop.body);
         writer_.dedent();
     }
 
-    void print(const Scatter& scatter) {
-        const std::string rows = program_[scatter.rows].name,
-                          visited = program_[scatter.visited].name;
-        writer_.line(fmt::format("fill {} over true[{}]({})", element(scatter.target, {}),
-                                 binding(scatter.visited), expression(scatter.condition)));
-        writer_.indent();
-        writer_.line(fmt::format("for {} in {}[{}] .. {}[{} + 1]", program_[scatter.entry].name,
-                                 rows, visited, rows, visited));
-        writer_.indent();
-        writer_.line(element(scatter.target, scatter.indices) +
-                     " ||= " + expression(scatter.value));
-        writer_.dedent();
+    void print(const Visit& visit) {
+        writer_.line(fmt::format("for true {}", expression(visit.condition))).indent();
+        if (visit.entries) {
+            const std::string rows = program_[visit.entries->rows].name,
+                              visited = program_[visit.visited].name;
+            writer_.line(fmt::format("for {} in {}[{}] .. {}[{} + 1]",
+                                     program_[visit.entries->variable].name, rows, visited, rows,
+                                     visited));
+            writer_.indent();
+        }
+        for (const Mark& mark : visit.marks)
+            writer_.line(fmt::format("{} = {} where {}", element(mark.target, mark.indices),
+                                     mark.value, expression(mark.condition)));
+        if (visit.entries) writer_.dedent();
         writer_.dedent();
     }
     void print(const Call& call) {
@@ -335,7 +343,10 @@ class Printer {
         return fmt::format("search({}, {})", element(form.table, {}), expression(form.value));
     }
     std::string text(const Bits& form, Scalar, Precedence) const {
-        return fmt::format("bits({}, {})", element(form.buffer, {}), form.first);
+        return fmt::format("bits({}, {})", element(form.buffer, form.indices), form.first);
+    }
+    std::string text(const Union& form, Scalar, Precedence) const {
+        return fmt::format("union[{}]({})", element(form.masks, form.row), expression(form.bits));
     }
     std::string text(const Element& form, Scalar, Precedence) const {
         return fmt::format("element({}, {})", element(form.buffer, {}), expression(form.place));
@@ -366,7 +377,7 @@ class Printer {
     }
 
     std::string text(const Select& form, Scalar, Precedence) const {
-        constexpr std::string_view how[] = {"", " both in packs", " both"};
+        constexpr std::string_view how[] = {"", " both in packs", " both", " mostly first"};
         return fmt::format("select{}({})", how[static_cast<std::size_t>(form.evaluated)],
                            list({form.condition, form.then_value, form.else_value}));
     }

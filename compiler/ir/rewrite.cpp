@@ -23,10 +23,17 @@ void change_tables(Block& block, const std::function<void(BufferId&)>& change) {
     for (Statement& statement : block) {
         match(
             statement.form, [](Let&) {}, [&](Store& store) { change(store.target); },
-            [&](Loop& loop) { change_tables(loop.body, change); },
-            [&](Scatter& scatter) {
-                change(scatter.target);
-                change(scatter.rows);
+            [&](Spread& spread) { change(spread.target); },
+            [&](Loop& loop) {
+                change_tables(loop.body, change);
+                if (!loop.affected) return;
+                change(loop.affected->few);
+                change(loop.affected->rows);
+                change(loop.affected->objects);
+            },
+            [&](Visit& visit) {
+                for (Mark& mark : visit.marks) change(mark.target);
+                if (visit.entries) change(visit.entries->rows);
             },
             [&](Call& call) {
                 for (TableView& input : call.inputs) change(input.buffer);
@@ -39,7 +46,12 @@ void change_tables(Block& block, const std::function<void(BufferId&)>& change) {
 
 void change_operands(Node& node, const Change& change) {
     match(
-        node.form, [](Constant&) {}, [](Index&) {}, [](Local&) {}, [](Bits&) {},
+        node.form, [](Constant&) {}, [](Index&) {}, [](Local&) {},
+        [&](Bits& bits) { change_all(bits.indices, change); },
+        [&](Union& form) {
+            change_all(form.row, change);
+            change(form.bits);
+        },
         [&](Load& load) { change_all(load.indices, change); },
         [&](Search& search) { change(search.value); },
         [&](Element& element) { change(element.place); },
@@ -86,11 +98,17 @@ void change_roots(Block& block, const Change& change) {
                 change_all(store.indices, change);
                 change(store.value);
             },
+            [&](Spread& spread) {
+                change_all(spread.indices, change);
+                change(spread.bits);
+            },
             [&](Loop& loop) { change_roots(loop.body, change); },
-            [&](Scatter& scatter) {
-                change(scatter.condition);
-                change_all(scatter.indices, change);
-                change(scatter.value);
+            [&](Visit& visit) {
+                change(visit.condition);
+                for (Mark& mark : visit.marks) {
+                    change_all(mark.indices, change);
+                    change(mark.condition);
+                }
             },
             [&](Call& call) {
                 for (TableView& input : call.inputs) change_all(input.indices, change);
@@ -114,6 +132,7 @@ void change_buffers(Program& program, const std::function<void(BufferId&)>& chan
         if (auto* load = std::get_if<Load>(&node.form)) change(load->buffer);
         if (auto* search = std::get_if<Search>(&node.form)) change(search->table);
         if (auto* bits = std::get_if<Bits>(&node.form)) change(bits->buffer);
+        if (auto* form = std::get_if<Union>(&node.form)) change(form->masks);
         if (auto* interval = std::get_if<Interval>(&node.form)) change(interval->table);
         if (auto* element = std::get_if<Element>(&node.form)) change(element->buffer);
     }

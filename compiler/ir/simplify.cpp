@@ -42,6 +42,10 @@ class Simplifier {
             {Operator::Equal, &Simplifier::equality},
             {Operator::Equivalent, &Simplifier::equality},
             {Operator::NotEqual, &Simplifier::inequality},
+            {Operator::Less, &Simplifier::order},
+            {Operator::LessEqual, &Simplifier::order},
+            {Operator::Greater, &Simplifier::order},
+            {Operator::GreaterEqual, &Simplifier::order},
             {Operator::Minimum, &Simplifier::extremum},
             {Operator::Maximum, &Simplifier::extremum},
             {Operator::BitAnd, &Simplifier::common_bits},
@@ -93,9 +97,45 @@ class Simplifier {
     bool is_zero(NodeId id) const { return is(id, std::int64_t{0}) || is(id, 0.0); }
     bool is_one(NodeId id) const { return is(id, std::int64_t{1}) || is(id, 1.0); }
 
+    // The order of ints is known where their ranges do not overlap.
+    std::optional<NodeId> order() {
+        const bool is_greater = op_ == Operator::Greater || op_ == Operator::GreaterEqual;
+        const bool is_strict = op_ == Operator::Less || op_ == Operator::Greater;
+        const NodeId less = is_greater ? b_ : a_, more = is_greater ? a_ : b_;
+        if (!are_droppable_ints()) return std::nullopt;
+        if (is_strict ? are_less(less, more) : are_at_most(less, more))
+            return builder_.constant(true);
+        if (is_strict ? are_at_most(more, less) : are_less(more, less))
+            return builder_.constant(false);
+        return std::nullopt;
+    }
+    bool are_droppable_ints() const {
+        return node(a_).type == Scalar::Int && droppable(a_) && droppable(b_);
+    }
+    // All values of the first are less than, or at most, all of the second.
+    bool are_less(NodeId first, NodeId second) const {
+        const auto a = exact_range(first), b = exact_range(second);
+        return a && b && a->upper < b->lower;
+    }
+    bool are_at_most(NodeId first, NodeId second) const {
+        const auto a = exact_range(first), b = exact_range(second);
+        return a && b && a->upper <= b->lower;
+    }
+    // Nothing if the bounds of ints may have been rounded.
+    std::optional<Range> exact_range(NodeId id) const {
+        const auto& range = builder_.properties(id).range;
+        const bool is_exact = range && range->lower > -exact_ints && range->upper < exact_ints;
+        return is_exact ? range : std::nullopt;
+    }
+
     // Equal operands give the first one: max[0.0, x] is x only if x is greater than 0.
     std::optional<NodeId> extremum() {
         if (a_ == b_) return a_;
+        if (are_droppable_ints()) {
+            const bool is_minimum = op_ == Operator::Minimum;
+            if (are_at_most(a_, b_)) return is_minimum ? a_ : b_;
+            if (are_at_most(b_, a_)) return is_minimum ? b_ : a_;
+        }
         const NodeId b = without_zero(b_);
         const Properties& first = builder_.properties(a_);
         const bool hides_zeros =

@@ -140,17 +140,18 @@ class Verifier {
                     require(store.target.index < program_.buffers.size(), "there is no buffer {}",
                             store.target.index);
                 },
+                [&](const Spread& spread) { id_is_known(spread.target); },
                 [&](const Loop& loop) {
                     require(loop.variable.index < program_.variables.size(),
                             "there is no variable {}", loop.variable.index);
                     ids_are_known(loop.body);
                 },
-                [&](const Scatter& scatter) {
-                    for (const BufferId buffer : {scatter.target, scatter.rows})
-                        id_is_known(buffer);
-                    for (const VariableId variable : {scatter.visited, scatter.entry})
-                        require(variable.index < program_.variables.size(),
-                                "there is no variable {}", variable.index);
+                [&](const Visit& visit) {
+                    for (const Mark& mark : visit.marks) id_is_known(mark.target);
+                    id_is_known(visit.visited);
+                    if (!visit.entries) return;
+                    id_is_known(visit.entries->rows);
+                    id_is_known(visit.entries->variable);
                 },
                 [&](const Call& call) { ids_are_known(call); });
         }
@@ -166,6 +167,10 @@ class Verifier {
                 "there is no external function {}", external ? external->index : 0);
     }
 
+    void id_is_known(VariableId variable) {
+        require(variable.index < program_.variables.size(), "there is no variable {}",
+                variable.index);
+    }
     void id_is_known(BufferId buffer) {
         require(buffer.index < program_.buffers.size(), "there is no buffer {}", buffer.index);
     }
@@ -255,7 +260,19 @@ class Verifier {
         const Buffer& buffer = program_[form.buffer];
         return result == Scalar::Int && buffer.scalar == Scalar::Bool &&
                buffer.storage != Storage::Constant && form.first >= 0 && form.first % 64 == 0 &&
-               form.first < buffer.count();
+               are_leading(buffer, form.indices) &&
+               form.first < buffer.row_size(form.indices.size());
+    }
+    bool are_leading(const Buffer& buffer, const std::vector<NodeId>& indices) const {
+        return indices.size() <= buffer.shape.size() &&
+               std::ranges::all_of(indices, [&](NodeId id) { return type(id) == Scalar::Int; });
+    }
+    bool fits(const Union& form, Scalar result) const {
+        const Buffer& masks = program_[form.masks];
+        return result == Scalar::Int && masks.scalar == Scalar::Int &&
+               masks.storage == Storage::Constant && form.row.size() + 1 == masks.shape.size() &&
+               are_leading(masks, form.row) && masks.shape.back() <= 64 &&
+               type(form.bits) == Scalar::Int;
     }
     bool fits(const Element& form, Scalar result) const {
         const Buffer& buffer = program_[form.buffer];
@@ -279,6 +296,7 @@ class Verifier {
         const Properties& second = properties_[form.else_value.index];
         switch (form.evaluated) {
             case Evaluated::Branch:
+            case Evaluated::MostlyFirst:
                 return true;
             case Evaluated::PackBoth:
                 return is_droppable(first) && is_droppable(second);
@@ -495,8 +513,11 @@ class Verifier {
     std::set<BufferId> filled_by(const Statement& each) {
         std::set<BufferId> filled;
         for_each_statement<Store>({each}, [&](const Store& store) { filled.insert(store.target); });
-        for_each_statement<Scatter>({each},
-                                    [&](const Scatter& scatter) { filled.insert(scatter.target); });
+        for_each_statement<Spread>({each},
+                                   [&](const Spread& spread) { filled.insert(spread.target); });
+        for_each_statement<Visit>({each}, [&](const Visit& visit) {
+            for (const Mark& mark : visit.marks) filled.insert(mark.target);
+        });
         for_each_statement<Call>({each}, [&](const Call& call) {
             for (BufferId written : written_buffers(call)) defined_.erase(written);
             filled.insert(call.output.buffer);
@@ -521,8 +542,9 @@ class Verifier {
         match(
             statement.form, [&](const Let& form) { let(form, scope, readable); },
             [&](const Store& form) { store(form, scope, readable); },
+            [&](const Spread& form) { spread(form, scope, readable); },
             [&](const Loop& form) { loop(form, scope, readable); },
-            [&](const Scatter& form) { scatter(form, scope, readable); },
+            [&](const Visit& form) { visit(form, scope, readable); },
             [&](const Call& form) { call(form, scope, readable); });
     }
 
@@ -543,35 +565,66 @@ class Verifier {
         use(form.value, scope, readable);
     }
 
+    void spread(const Spread& form, const Scope& scope, const StorageSet& readable) {
+        const Buffer& target = program_[form.target];
+        require(is_one_of(target.storage, {Storage::Scratch, Storage::Next}) &&
+                    target.scalar == Scalar::Bool && type(form.bits) == Scalar::Int,
+                "'{}' is not filled with bits", target.name);
+        require(are_leading(target, form.indices) && target.row_size(form.indices.size()) <= 64,
+                "a row of '{}' does not hold the bits of an int", target.name);
+        for (NodeId index : form.indices) use(index, scope, readable);
+        use(form.bits, scope, readable);
+    }
+
     void loop(const Loop& form, Scope scope, const StorageSet& readable) {
         require(scope.variables.insert(form.variable).second, "'{}' is bound inside itself",
                 program_[form.variable].name);
+        if (form.affected) {
+            const Buffer& few = program_[form.affected->few];
+            const Buffer& rows = program_[form.affected->rows];
+            require(few.storage == Storage::State && few.scalar == Scalar::Bool &&
+                        rows.storage == Storage::Constant && rows.count() == few.count() + 1 &&
+                        program_[form.affected->objects].storage == Storage::Constant,
+                    "'{}' does not say which objects '{}' affects", rows.name, few.name);
+        }
         for (const Statement& each : form.body) statement(each, scope, readable);
     }
 
-    void scatter(const Scatter& form, Scope scope, const StorageSet& readable) {
-        const Buffer& target = program_[form.target];
-        const Buffer& rows = program_[form.rows];
+    void visit(const Visit& form, Scope scope, const StorageSet& readable) {
         const Variable& visited = program_[form.visited];
-        require(target.storage == Storage::Scratch && target.scalar == Scalar::Bool,
-                "'{}' is not filled by those that are true", target.name);
-        require(rows.storage == Storage::Constant && rows.scalar == Scalar::Int &&
-                    rows.shape == std::vector{visited.size + 1},
-                "'{}' does not hold the rows of '{}'", rows.name, visited.name);
-        require(are_indices(target, form.indices), "the indices of '{}' do not fit", target.name);
         const auto* element = std::get_if<Load>(&program_[form.condition].form);
-        require(element && element->indices.size() == 1 &&
+        require(element && type(form.condition) == Scalar::Bool && element->indices.size() == 1 &&
                     program_[element->indices.front()].form ==
                         Node{Scalar::Int, Index{form.visited}}.form,
-                "the condition of '{}' is no element at '{}'", target.name, visited.name);
-        require(type(form.condition) == Scalar::Bool && type(form.value) == Scalar::Bool,
-                "the values that '{}' joins are no bools", target.name);
-        for (const VariableId variable : {form.visited, form.entry})
+                "the condition of a visit is no element at '{}'", visited.name);
+        std::vector<VariableId> bound = {form.visited};
+        if (form.entries) {
+            const Buffer& rows = program_[form.entries->rows];
+            require(rows.storage == Storage::Constant && rows.scalar == Scalar::Int &&
+                        rows.shape == std::vector{visited.size + 1},
+                    "'{}' does not hold the rows of '{}'", rows.name, visited.name);
+            bound.push_back(form.entries->variable);
+        }
+        for (const VariableId variable : bound)
             require(scope.variables.insert(variable).second, "'{}' is bound inside itself",
                     program_[variable].name);
+        use(form.condition, scope, readable);
+        std::map<BufferId, bool> values;
+        for (const Mark& each : form.marks) {
+            require(values.emplace(each.target, each.value).first->second == each.value,
+                    "marks of '{}' contradict each other", program_[each.target].name);
+            mark(each, scope, readable);
+        }
+    }
+
+    void mark(const Mark& form, const Scope& scope, const StorageSet& readable) {
+        const Buffer& target = program_[form.target];
+        require(is_one_of(target.storage, {Storage::Scratch, Storage::Next}) &&
+                    target.scalar == Scalar::Bool && type(form.condition) == Scalar::Bool,
+                "'{}' is not marked where a bool is true", target.name);
+        require(are_indices(target, form.indices), "the indices of '{}' do not fit", target.name);
         for (NodeId index : form.indices) use(index, scope, readable);
         use(form.condition, scope, readable);
-        use(form.value, scope, readable);
     }
 
     void call(const Call& form, const Scope& scope, const StorageSet& readable) {

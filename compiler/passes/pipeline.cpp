@@ -7,6 +7,7 @@
 #include "passes/aggregations/fuse_interm_fluents.hpp"
 #include "passes/aggregations/hoist_aggregations.hpp"
 #include "passes/aggregations/index_directly.hpp"
+#include "passes/aggregations/join_masks.hpp"
 #include "passes/aggregations/make_aggregations_sparse.hpp"
 #include "passes/aggregations/merge_draws.hpp"
 #include "passes/aggregations/search_intervals.hpp"
@@ -32,6 +33,7 @@
 #include "passes/lanes/separate_counts.hpp"
 #include "passes/lanes/separate_draws.hpp"
 #include "passes/lanes/unroll_rows.hpp"
+#include "passes/lanes/visit_affected.hpp"
 #include "passes/sharing/remove_unused_buffers.hpp"
 #include "passes/sharing/share_across_definitions.hpp"
 #include "passes/sharing/share_subexpressions.hpp"
@@ -145,6 +147,12 @@ constexpr Pass in_order[] = {
      "a draw from weights that are one expression of different objects is one over the objects",
      {"tabulate_thresholds"},
      "weights that tables and small ints decide are gone"},
+    {"join_masks",
+     Phase::Aggregations,
+     join_masks,
+     "few true bools of a row look up masks of what they reach",
+     {"index_directly"},
+     "an equality is better than a mask; and the passes below take aggregations apart"},
     {"visit_true",
      Phase::Aggregations,
      visit_true,
@@ -277,6 +285,12 @@ constexpr Pass in_order[] = {
      "loops over several objects at once fill vector registers",
      {"share_subexpressions"},
      "the loops have their final bodies"},
+    {"visit_affected",
+     Phase::Lanes,
+     visit_affected,
+     "loops of draws know which objects a table of few true bools can make true",
+     {"evaluate_together"},
+     "it says which loops run over words of bools"},
     {"choose_evaluation",
      Phase::Lanes,
      choose_evaluation,

@@ -346,8 +346,7 @@ void Gradient::write_first(const Candidate& candidate, const Memory& memory,
     if (candidate.kind == Candidate::Kind::Plan)
         parameters_.write(
             std::span(memory.plans[candidate.plan].parameters)
-                .subspan(static_cast<std::size_t>(memory.steps_made) * parameters_.count(),
-                         parameters_.count()),
+                .subspan(memory.steps_made * parameters_.count(), parameters_.count()),
             candidate.threshold, row);
     else
         std::ranges::copy(space_.defaults, row);
@@ -368,8 +367,7 @@ void Gradient::move_on(Memory& memory, RandomStream& stream) const {
     const std::size_t count = parameters_.count(), rows = static_cast<std::size_t>(horizon_);
     for (AscendingPlan& plan : memory.plans)
         for (std::size_t t = 0; t < rows; ++t) {
-            const std::size_t from =
-                std::min(t + static_cast<std::size_t>(memory.steps_made), rows - 1);
+            const std::size_t from = std::min(t + memory.steps_made, rows - 1);
             std::copy_n(plan.parameters.data() + from * count, count,
                         plan.parameters.data() + t * count);
         }

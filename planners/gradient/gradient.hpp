@@ -48,7 +48,7 @@ class Gradient : public Planner {
         Candidate choice;                  // of the last search; its plan, if it is one, is 0
         bool is_improved = false;          // this search has moved the plans
         std::int64_t steps_left = 0;       // that are made before the next search
-        std::int64_t steps_made = 0;  // since the last search: plans begin with their first row
+        std::size_t steps_made = 0;  // since the last search: plans begin with their first row
     };
 
     Memory& memory_of(const DecisionPoint& point, RandomStream& stream);

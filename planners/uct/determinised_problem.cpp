@@ -23,8 +23,12 @@ std::size_t DeterminisedProblem::bytes() const {
 }
 
 DeterminisedProblem::StateId DeterminisedProblem::state_of(const std::byte* its_record) {
-    const auto [id, is_new] =
-        ids_.add(hash_of(its_record, state_size_), static_cast<StateId>(states_.size()));
+    return state_of(its_record, hash_of(its_record, state_size_));
+}
+
+DeterminisedProblem::StateId DeterminisedProblem::state_of(const std::byte* its_record,
+                                                           std::uint64_t key) {
+    const auto [id, is_new] = ids_.add(key, static_cast<StateId>(states_.size()));
     if (is_new) {
         states_.emplace_back();
         records_.insert(records_.end(), its_record, its_record + state_size_);
@@ -99,19 +103,52 @@ bool DeterminisedProblem::open_front(TypicalSteps& steps, BudgetMeter& meter) {
 void DeterminisedProblem::take_moves(StateId state, std::size_t place, const TypicalSteps& steps) {
     const auto first = static_cast<std::uint32_t>(moves_.size());
     bool stays = true;
+    twins_.clear();
+    keys_.resize(steps.action_count());
+    for (std::size_t a = 0; a < steps.action_count(); ++a)
+        if (const std::byte* const next = steps.next(place, a)) {
+            keys_[a] = hash_of(next, state_size_);
+            ids_.prefetch(keys_[a]);
+        }
     for (std::size_t a = 0; a < steps.action_count(); ++a) {
         if (!steps.is_legal(place, a)) continue;
         const std::byte* const next = steps.next(place, a);
-        const double reward = steps.reward(place, a);
-        moves_.push_back({static_cast<std::uint32_t>(a), next ? state_of(next) : over, reward});
-        stays = stays && steps.is_unchanged(place, a) && reward == moves_[first].reward;
+        const Move move{static_cast<std::uint32_t>(a), next ? state_of(next, keys_[a]) : over,
+                        steps.reward(place, a)};
+        (has_twin(first, move) ? twins_ : moves_).push_back(move);
+        stays = stays && steps.is_unchanged(place, a) && move.reward == moves_[first].reward;
     }
-    states_[state].row = static_cast<std::uint32_t>(courses_.size() / width_);
+    State& its = states_[state];
+    its.row = static_cast<std::uint32_t>(courses_.size() / width_);
     courses_.resize(courses_.size() + width_, {unknown, over});
-    states_[state].first_move = first;
-    states_[state].move_count = static_cast<std::uint32_t>(moves_.size()) - first;
-    states_[state].stays = stays;
-    states_[state].is_open = true;
+    its.first_move = first;
+    its.move_count = static_cast<std::uint32_t>(moves_.size()) - first;
+    its.twin_count = static_cast<std::uint32_t>(twins_.size());
+    its.stays = stays;
+    its.is_open = true;
+    moves_.insert(moves_.end(), twins_.begin(), twins_.end());
+}
+
+bool DeterminisedProblem::has_twin(std::size_t first, const Move& move) const {
+    for (std::size_t m = first; m < moves_.size(); ++m)
+        if (moves_[m].next == move.next && moves_[m].reward == move.reward) return true;
+    return false;
+}
+
+void DeterminisedProblem::add_comparison(StateId state, std::int32_t draws,
+                                         std::span<const std::uint8_t> differs) {
+    State& its = states_[state];
+    its.compared += draws;
+    Move* const twins = moves_.data() + its.first_move + its.move_count;
+    twins_.assign(twins, twins + its.twin_count);
+    std::size_t place = 0;
+    for (const bool wanted : {true, false})
+        for (std::size_t t = 0; t < twins_.size(); ++t)
+            if ((differs[t] != 0) == wanted) twins[place++] = twins_[t];
+    const auto found = static_cast<std::uint32_t>(
+        std::ranges::count_if(differs, [](std::uint8_t differs_too) { return differs_too != 0; }));
+    its.move_count += found;
+    its.twin_count -= found;
 }
 
 // States that were met already, or whose values are known to the end of the search, are not visited

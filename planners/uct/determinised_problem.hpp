@@ -59,10 +59,22 @@ class DeterminisedProblem {
     // first.
     double& later(StateId state, std::size_t policy) { return states_[state].later[policy]; }
     bool is_open(StateId state) const { return states_[state].is_open; }
-    // The legal actions of an open state.
+    // The legal actions of an open state, without twins.
     std::span<const Move> moves(StateId state) const {
         return {moves_.data() + states_[state].first_move, states_[state].move_count};
     }
+    // Further legal actions, which have the same typical outcome as one of these: as far as is
+    // known, the two are the same action.
+    std::span<const Move> twins(StateId state) const {
+        return {moves_.data() + states_[state].first_move + states_[state].move_count,
+                states_[state].twin_count};
+    }
+    // So many draws have compared twins with their moves.
+    std::int32_t compared(StateId state) const { return states_[state].compared; }
+    // Further draws have: those that differ, a flag for each twin, are moves from now on.
+    void add_comparison(StateId state, std::int32_t draws, std::span<const std::uint8_t> differs);
+    // No draws have shown a difference: the twins are forgotten.
+    void forget_twins(StateId state) { states_[state].twin_count = 0; }
     // The reward of a move from an open state, and the best course that follows, in so many steps
     // altogether: 1 .. depth().
     Course after(const Move& move, std::int64_t steps);
@@ -80,14 +92,17 @@ class DeterminisedProblem {
         State() { later.fill(std::numeric_limits<double>::quiet_NaN()); }
         std::array<double, most_policies> later;
         std::uint32_t row = 0;  // of an open state: of courses_
-        std::uint32_t first_move = 0, move_count = 0;
+        std::uint32_t first_move = 0, move_count = 0, twin_count = 0;
+        std::int32_t compared = 0;
         std::uint32_t visit = 0;  // of a search: the last one that has met it
         bool is_open = false, stays = false, is_confirmed = false;
     };
 
+    StateId state_of(const std::byte* record, std::uint64_t key);
     void begin_visit(std::span<const StateId> states);
     bool open_front(TypicalSteps& steps, BudgetMeter& meter);
     void take_moves(StateId state, std::size_t place, const TypicalSteps& steps);
+    bool has_twin(std::size_t first, const Move& move) const;
     void move_front(std::int64_t steps_left);
     std::size_t place_of(StateId state, std::int64_t steps) const {
         return states_[state].row * width_ + static_cast<std::size_t>(steps - 1);
@@ -108,6 +123,8 @@ class DeterminisedProblem {
     std::size_t width_ = 1;
     std::uint32_t visit_ = 0;
     std::vector<StateId> front_, next_front_, closed_;
+    std::vector<Move> twins_;
+    std::vector<std::uint64_t> keys_;  // of the states after actions
     std::vector<const std::byte*> wanted_;
 };
 

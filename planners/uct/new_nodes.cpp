@@ -129,22 +129,20 @@ bool Uct::value_by_determinisation(const DecisionPoint& point, RandomStream& str
     if (!determinised.open(determinised_states_, *typical_steps_, meter)) return false;
     if (!find_later_rewards(point, stream, meter)) return false;
     for (std::size_t n = 0; n < new_nodes_.size(); ++n) {
+        for (const auto& move : determinised.moves(determinised_states_[n]))
+            add_move(new_nodes_[n], move);
         Node& node = tree().node(new_nodes_[n]);
-        const auto moves = determinised.moves(determinised_states_[n]);
-        if (node.edge_count == 0)
-            for (const auto& move : moves) tree().add_edge(new_nodes_[n], move.action);
-        std::size_t next = 0;
-        for (Edge& edge : tree().edges(node)) {
-            while (next < moves.size() && moves[next].action < edge.action) ++next;
-            if (next == moves.size() || moves[next].action != edge.action) continue;
-            edge.estimates = 1;
-            edge.value = edge.estimate = estimate(moves[next], node);
-        }
         node.is_open = true;
+        node.twins_at = twins_at(determinised_states_[n]);
         tree().value_node(node);
         lock_where_it_stays(point, n, stream, meter);
     }
     return true;
+}
+
+void Uct::add_move(NodeId id, const DeterminisedProblem::Move& move) {
+    const EdgeId edge = tree().add_edge(id, move.action);
+    tree().add_estimate(id, edge, estimate(move, tree().node(id)));
 }
 
 // New node n is locked if its state stays in the determinised problem, and draws confirm it. Where
@@ -158,6 +156,9 @@ void Uct::lock_where_it_stays(const DecisionPoint& point, std::size_t n, RandomS
     if (simulator_.problem->stochastic && !determinised.is_confirmed(state)) {
         unchanged_rewards_.resize(new_nodes_.size());
         unchanged_rewards_[n] = reward;
+        drawn_actions_.clear();
+        for (const auto& moves : {determinised.moves(state), determinised.twins(state)})
+            for (const auto& move : moves) drawn_actions_.push_back(move.action);
         const std::optional<bool> stays = stays_unchanged(point, n, stream, meter);
         if (!stays) return;
         determinised.confirm(state, *stays);
@@ -274,6 +275,8 @@ bool Uct::value_by_policy(const DecisionPoint& point, RandomStream& stream, Budg
         node.is_open = true;
         if (!by_policy) tree().value_node(node);
         if (by_policy || unchanged_[n] < draws * node.edge_count) continue;
+        drawn_actions_.clear();
+        for (const Edge& edge : tree().edges(node)) drawn_actions_.push_back(edge.action);
         if (simulator_.problem->stochastic &&
             !stays_unchanged(point, n, stream, meter).value_or(false))
             continue;
@@ -290,20 +293,20 @@ void Uct::lock(Node& node, double reward) {
         node.value = reward + tree().discount() * node.value;
 }
 
-// Whether it was no accident that no action has changed the state: each one is tried again, often.
+// Whether it was no accident that no action has changed the state: each of drawn_actions_ is tried
+// again, often.
 // Nothing: the budget does not last.
 std::optional<bool> Uct::stays_unchanged(const DecisionPoint& point, std::size_t n,
                                          RandomStream& stream, BudgetMeter& meter) {
     const NodeId id = new_nodes_[n];
     const Node& node = tree().node(id);
-    const std::size_t all = lock_draws * node.edge_count;
+    const std::size_t all = lock_draws * drawn_actions_.size();
     for (std::size_t first = 0; first < all; first += continuations_.lanes()) {
         starts_.clear();
         for (std::size_t k = first; k < std::min(all, first + continuations_.lanes()); ++k) {
-            const auto edge = static_cast<EdgeId>(k % node.edge_count);
-            starts_.push_back({tree().state(id), node.step,
-                               actions_.record(tree().edge(node.first_edge + edge).action), 1,
-                               stream.bits()});
+            const std::uint32_t action = drawn_actions_[k % drawn_actions_.size()];
+            starts_.push_back(
+                {tree().state(id), node.step, actions_.record(action), 1, stream.bits()});
         }
         if (!meter.has_room(static_cast<std::int64_t>(starts_.size()), 0) ||
             !continuations_.run(point, starts_, policies_[policy_], meter))
@@ -330,10 +333,7 @@ void Uct::take_values(std::size_t first, std::size_t count) {
             node.value += (value_of(k) - node.value) / node.draws;
             continue;
         }
-        Edge& edge = tree().edge(asked.edge);
-        edge.estimates += 1;
-        edge.estimate += (value_of(k) - edge.estimate) / edge.estimates;
-        edge.value = edge.estimate;
+        tree().add_estimate(id, asked.edge, value_of(k));
         if (id == root_) note_return(value_of(k));
         if (unchanged_[asked.node] == 0)
             unchanged_rewards_[asked.node] = continuations_.first_reward(k);

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <utility>
 #include <vector>
@@ -16,15 +17,25 @@ namespace rddlc::planners {
 
 using NodeId = std::uint32_t;
 using EdgeId = std::uint32_t;
+inline constexpr EdgeId no_edge = std::numeric_limits<EdgeId>::max();
 
 struct Node {
+    double value = 0;
     EdgeId first_edge = 0;
     std::uint32_t edge_count = 0;
-    std::int32_t draws = 0;  // that its value was found by, before it had edges with values
-    std::int64_t step = 0;   // of the episode
-    double value = 0;
-    std::int32_t best = -1;   // the edge, from 0, whose value is the node's; -1: no such edge
+    std::int32_t step = 0;     // of the episode
+    std::int32_t best = -1;    // the edge, from 0, whose value is the node's; -1: no such edge
+    std::int32_t draws = 0;    // that its value was found by, before it had edges with values
+    std::int32_t weight = 0;   // the sum of those of its edges
+    std::int32_t untried = 0;  // edges of weight 0
+    // The weight from which on twins of its actions are looked at (again).
+    std::int32_t twins_at = std::numeric_limits<std::int32_t>::max();
+    // The edge that led here last, if one did, and the place of this node among its outcomes. There
+    // is another one only where a state is reached in several ways.
+    EdgeId edge_before = no_edge;
+    std::uint32_t outcome = 0;
     bool is_open = false;     // its edges have values
+    bool is_asked = false;    // its value is on the way
     bool has_priors = false;  // its edges have priors
     bool is_locked = false;   // whatever is done, the state and the reward stay: the value is exact
 };
@@ -32,19 +43,29 @@ struct Node {
 // An action in a state.
 struct Edge {
     std::uint32_t action = 0;
-    std::int32_t started = 0, done = 0;  // trials: that chose it, that were backed up
-    std::int32_t estimates = 0;          // draws that its first value was found by
-    double estimate = 0, value = 0;
-    double rewards = 0, returns = 0;  // sums over trials
-    float prior = 0;                  // of a policy: 0 .. 1
-    std::int32_t first_outcome = -1, outcome_count = 0;
+    std::int32_t done = 0;       // trials that were backed up
+    std::int32_t estimates = 0;  // draws that its first value was found by
+    double estimate = 0;
+    double rewards = 0;  // the sum over trials
+    double rests = 0;    // the sum over trials of the values of what came after the action
+    float prior = 0;     // of a policy: 0 .. 1
+    std::uint32_t first_outcome = 0, outcome_count = 0;
 
-    std::int32_t weight() const { return started + (estimates > 0); }
+    // A first value counts as one trial.
+    std::int32_t known_weight() const { return done + (estimates > 0); }
+};
+
+// What a choice among the actions of a node reads of each: the arms of a bandit.
+struct Arm {
+    double value = -std::numeric_limits<double>::infinity();  // of an edge that has one
+    std::int32_t weight = 0;                                  // with trials that are under way
+    float width = 0;                                          // 1 / sqrt(weight)
 };
 
 struct Outcome {
-    NodeId node;
-    std::int32_t count, next;
+    NodeId node = 0;
+    std::int32_t started = 0, done = 0;  // trials: that came here, that were backed up
+    double value = 0;                    // the node's, when it was last backed up to the edge
 };
 
 class Tree {
@@ -56,11 +77,24 @@ class Tree {
         : state_size_(state_size), discount_(discount), backup_(backup) {}
 
     void clear();
-    // The node of the state at that step: a new one, unless find() knows it.
-    NodeId node_of(const std::byte* state, std::int64_t step);
+    // States at their steps have keys.
+    std::uint64_t key_of(const std::byte* state, std::int64_t step) const {
+        return hash_of(state, state_size_, static_cast<std::uint64_t>(step));
+    }
     // Nothing: it was not met before.
-    const NodeId* find(const std::byte* state, std::int64_t step) const;
-    void add_edge(NodeId node, std::uint32_t action);  // of one node after the other
+    const NodeId* find(std::uint64_t key) const { return ids_.find(key); }
+    const NodeId* find(const std::byte* state, std::int64_t step) const {
+        return find(key_of(state, step));
+    }
+    // The node of the state at that step: a new one, unless find() knows it.
+    NodeId node_of(std::uint64_t key, const std::byte* state, std::int64_t step);
+    NodeId node_of(const std::byte* state, std::int64_t step) {
+        return node_of(key_of(state, step), state, step);
+    }
+    EdgeId add_edge(NodeId node, std::uint32_t action);  // of one node after the other
+    // Edges may be added to that node again. Those that it has get other numbers, so that no trial
+    // may be under way.
+    void reopen_edges(NodeId node);
 
     Node& node(NodeId id) { return nodes_[id]; }
     const Node& node(NodeId id) const { return nodes_[id]; }
@@ -70,11 +104,20 @@ class Tree {
     std::span<const Edge> edges(const Node& node) const {
         return {edges_.data() + node.first_edge, node.edge_count};
     }
+    std::span<const Arm> arms(const Node& node) const {
+        return {arms_.data() + node.first_edge, node.edge_count};
+    }
     Edge& edge(EdgeId id) { return edges_[id]; }
-    // Asks for the memory of the node's edges, which a choice among them reads soon.
-    void prefetch_edges(const Node& node) const {
-        const auto* const first = reinterpret_cast<const char*>(edges_.data() + node.first_edge);
-        const std::size_t size = std::min<std::size_t>(node.edge_count * sizeof(Edge), 4096);
+    const Edge& edge(EdgeId id) const { return edges_[id]; }
+    const Arm& arm(EdgeId id) const { return arms_[id]; }
+    // Each asks for memory that is read soon: by find(), by what is done with a node or an edge,
+    // and by a choice among the node's edges.
+    void prefetch(std::uint64_t key) const { ids_.prefetch(key); }
+    void prefetch_node(NodeId id) const { __builtin_prefetch(nodes_.data() + id); }
+    void prefetch_edge(EdgeId id) const { __builtin_prefetch(edges_.data() + id); }
+    void prefetch_arms(const Node& node) const {
+        const auto* const first = reinterpret_cast<const char*>(arms_.data() + node.first_edge);
+        const std::size_t size = std::min<std::size_t>(node.edge_count * sizeof(Arm), 2048);
         for (std::size_t b = 0; b < size; b += 64) __builtin_prefetch(first + b);
     }
     EdgeId id_of(const Edge& edge) const { return static_cast<EdgeId>(&edge - edges_.data()); }
@@ -84,22 +127,42 @@ class Tree {
     // Forgets all but what may follow this action.
     void keep_below(EdgeId edge);
 
-    // A trial went on to that node; one that was seen before, chosen by `share` of [0, 1).
-    void add_outcome(EdgeId edge, NodeId node);
+    // A further draw of what the edge is worth, before trials.
+    void add_estimate(NodeId node, EdgeId edge, double value);
+    // A trial takes that edge.
+    void start(NodeId node, EdgeId edge);
+    // It was cut off after that, at this outcome.
+    void cancel(NodeId node, EdgeId edge, std::uint32_t outcome);
+    // It went on to that node. The place of the node among the edge's outcomes.
+    std::uint32_t add_outcome(EdgeId edge, NodeId node);
+    // A node that was seen before, chosen by `share` of [0, 1).
     NodeId seen_outcome(EdgeId edge, double share) const;
-    // A trial has ended: the reward of this edge, and what came after it.
-    void back_up(NodeId node, EdgeId edge, double reward, double rest);
+    // A trial has ended: the reward of this edge, the outcome by its place, and the value of what
+    // came after it.
+    void back_up(NodeId node, EdgeId edge, std::uint32_t outcome, double reward, double rest);
+    // By its edges as they are now.
     void value_node(Node& node);
     double discount() const { return discount_; }
 
   private:
-    std::uint64_t key_of(const std::byte* state, std::int64_t step) const;
+    std::span<Outcome> outcomes(const Edge& edge) {
+        return {outcomes_.data() + edge.first_outcome, edge.outcome_count};
+    }
+    std::span<const Outcome> outcomes(const Edge& edge) const {
+        return {outcomes_.data() + edge.first_outcome, edge.outcome_count};
+    }
+    std::uint32_t append_outcome(Edge& edge, const Outcome& outcome);
+    void reserve_as(const Tree& other);
+    void add_weight(Node& node, EdgeId edge, std::int32_t more);
+    void add_value_after(Edge& edge, Outcome& outcome);
 
     std::size_t state_size_;
     double discount_;
     Backup backup_;
     std::vector<Node> nodes_;
     std::vector<Edge> edges_;
+    std::vector<Arm> arms_;  // of edges
+    // Those of an edge lie together, in a block whose size is a power of two.
     std::vector<Outcome> outcomes_;
     std::vector<std::byte> states_;
     StateTable ids_;

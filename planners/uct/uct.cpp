@@ -34,6 +34,9 @@ constexpr double least_tried = 0.2;
 constexpr std::size_t decision_share = 16;
 constexpr std::size_t kept_share = 64;
 
+// A tree of so many bytes is freed of what the decision has made unreachable.
+constexpr std::size_t most_garbage = std::size_t{64} << 20;
+
 std::optional<FiniteActions> finite_actions(const rddl_simulator& simulator, int most) {
     return FiniteActions::of(simulator, solvers::action_space(simulator),
                              static_cast<std::size_t>(most));
@@ -55,9 +58,9 @@ bool may_determinise(const UctOptions& options, std::size_t actions) {
            options.budget.steps.value_or(most_steps) >= least_states * steps;
 }
 
-Initial initial_of(const UctOptions& options, std::size_t actions) {
+Initial initial_of(const PlannerContext& context, const UctOptions& options, std::size_t actions) {
     if (options.initial) return *options.initial;
-    if (!options.policy.empty()) return Initial::Lookahead;
+    if (context.base) return context.base->values ? Initial::Value : Initial::Lookahead;
     return may_determinise(options, actions) ? Initial::Determinised : Initial::Rollout;
 }
 
@@ -70,9 +73,8 @@ solvers::StateValues values_of(const solvers::Policy& policy, std::int64_t lanes
                   "observed in full");
 }
 
-std::int64_t leaf_lanes(const UctOptions& options, std::size_t actions) {
-    const auto each =
-        static_cast<std::int64_t>(initial_of(options, actions) == Initial::Lookahead ? actions : 4);
+std::int64_t leaf_lanes(const UctOptions& options, Initial initial, std::size_t actions) {
+    const auto each = static_cast<std::int64_t>(initial == Initial::Lookahead ? actions : 4);
     return std::clamp<std::int64_t>(affordable_lanes(options, options.lanes) * each, 1,
                                     most_leaf_lanes);
 }
@@ -89,14 +91,16 @@ Uct::Uct(const PlannerContext& context, const UctOptions& options)
       state_size_(static_cast<std::size_t>(simulator_.problem->state_size)),
       action_size_(static_cast<std::size_t>(simulator_.problem->action_size)),
       actions_(finite_actions(simulator_, options.actions).value()),
-      initial_(initial_of(options, actions_.count())),
+      initial_(initial_of(context, options, actions_.count())),
       trees_(simulator_, affordable_lanes(options, options.lanes), context.horizon),
-      continuations_(simulator_, leaf_lanes(options, actions_.count()), context.horizon, true),
+      continuations_(simulator_, leaf_lanes(options, initial_, actions_.count()), context.horizon,
+                     true),
       most_bytes_(static_cast<std::size_t>(context.memory_limit) / decision_share),
       most_kept_bytes_(static_cast<std::size_t>(context.memory_limit) / kept_share),
       memories_(context.environments),
       trials_(trees_.running().size()),
       streams_(trials_.size()),
+      keys_(trials_.size()),
       records_(trials_.size() * action_size_),
       states_(trials_.size() * state_size_) {
     const auto lanes = static_cast<std::int64_t>(continuations_.lanes());
@@ -136,6 +140,7 @@ void Uct::choose_policy(const DecisionPoint& point, RandomStream& stream, Budget
 }
 
 void Uct::add_edges(NodeId node, const Origin& origin) {
+    if (tree().node(node).edge_count > 0) return;  // a decision that had no time left has done it
     actions_.find_legal(origin, legal_);
     for (std::size_t a = 0; a < actions_.count(); ++a)
         if (legal_[a]) tree().add_edge(node, static_cast<std::uint32_t>(a));
@@ -170,22 +175,35 @@ bool Uct::open_root(const DecisionPoint& point, RandomStream& stream, BudgetMete
         root_ = *known;
         note_range();
         confirm_root(point, stream, meter);
+        if (is_determinised()) compare_all_twins(point, stream, meter);
         return true;
     }
     root_ = tree().node_of(states_.data(), step_);
     new_nodes_.assign(1, root_);
-    add_edges(root_, point.origin);
     memory_->leaf_depth = end_ - step_;
-    const auto edges = static_cast<std::int64_t>(tree().node(root_).edge_count);
-    if (!meter.has_room(edges, 0)) return false;
-    const bool is_cheap =
-        meter.has_room(10 * edges * (end_ - step_) * static_cast<std::int64_t>(root_draws), 0);
-    if (!value_new_nodes(point, stream, meter, is_cheap ? root_draws : 1)) return false;
+    if (!value_root(point, stream, meter)) return false;
     note_range();
     // Where the policy shows no difference between actions, the tree has to: it grows deeper with
     // leaves that are looked at more shortly.
     if (least_ == most_) memory_->leaf_depth = short_leaf;
     return true;
+}
+
+bool Uct::value_root(const DecisionPoint& point, RandomStream& stream, BudgetMeter& meter) {
+    if (is_determinised()) {
+        if (value_new_nodes(point, stream, meter, 1)) {
+            compare_all_twins(point, stream, meter);
+            return true;
+        }
+        add_edges(root_, point.origin);
+        return false;
+    }
+    add_edges(root_, point.origin);
+    const auto edges = static_cast<std::int64_t>(tree().node(root_).edge_count);
+    if (!meter.has_room(edges, 0)) return false;
+    const bool is_cheap =
+        meter.has_room(10 * edges * (end_ - step_) * static_cast<std::int64_t>(root_draws), 0);
+    return value_new_nodes(point, stream, meter, is_cheap ? root_draws : 1);
 }
 
 // As deep as can be done often in the budget.
@@ -201,8 +219,7 @@ void Uct::choose_lookahead(BudgetMeter& meter) {
 
 // The range of returns begins with the values of the root's actions.
 void Uct::note_range() {
-    for (const Edge& edge : tree().edges(tree().node(root_)))
-        if (edge.weight() > 0) note_return(edge.value);
+    for (const Arm& arm : tree().arms(tree().node(root_))) note_return(arm.value);
 }
 
 double Uct::bonus(const Node& node) const {
@@ -213,39 +230,40 @@ double Uct::bonus(const Node& node) const {
 // Actions without a value come first. Then the best by value and by how little it was tried (UCB1).
 EdgeId Uct::choose_edge(const Node& node, RandomStream& stream) {
     if (node.has_priors) return choose_by_prior(node);
-    double all = 1;
-    std::uint32_t untried = 0;
-    EdgeId chosen = node.first_edge;
-    for (const Edge& edge : tree().edges(node)) {
-        all += edge.weight();
-        if (edge.weight() == 0 && stream.below(++untried) == 0) chosen = tree().id_of(edge);
-    }
-    if (untried > 0) return chosen;
-    const double scale = bonus(node) * std::sqrt(std::log(all));
+    if (node.untried > 0) return choose_untried(node, stream);
+    const auto arms = tree().arms(node);
+    const double scale = bonus(node) * std::sqrt(std::log(1.0 + node.weight));
+    std::size_t chosen = 0;
     double best = -std::numeric_limits<double>::infinity();
-    // Where all that was seen is alike, the least tried action comes next.
-    for (const Edge& edge : tree().edges(node)) {
-        // Trials that are under way count as tried, so that those beside them differ.
-        const double bound = edge.value + scale / std::sqrt(edge.weight());
+    // Trials that are under way count as tried, so that those beside them differ. Where all that
+    // was seen is alike, the least tried action comes next.
+    for (std::size_t a = 0; a < arms.size(); ++a) {
+        const double bound = arms[a].value + scale * static_cast<double>(arms[a].width);
         if (!(bound > best)) continue;
         best = bound;
-        chosen = tree().id_of(edge);
+        chosen = a;
     }
+    return node.first_edge + static_cast<EdgeId>(chosen);
+}
+
+EdgeId Uct::choose_untried(const Node& node, RandomStream& stream) {
+    auto left = static_cast<std::int32_t>(stream.below(static_cast<std::uint32_t>(node.untried)));
+    EdgeId chosen = node.first_edge;
+    for (EdgeId edge = node.first_edge; edge < node.first_edge + node.edge_count; ++edge)
+        if (tree().arm(edge).weight == 0 && left-- == 0) chosen = edge;
     return chosen;
 }
 
 // PUCT (Silver and others, 2017). An action that was not tried yet has the value of the node.
 EdgeId Uct::choose_by_prior(const Node& node) const {
     const auto edges = tree().edges(node);
-    double all = 1;
-    for (const Edge& edge : edges) all += edge.weight();
-    const double scale = bonus(node) * std::sqrt(all);
+    const double scale = bonus(node) * std::sqrt(1.0 + node.weight);
     std::size_t chosen = 0;
     double best = -std::numeric_limits<double>::infinity();
     for (std::size_t e = 0; e < edges.size(); ++e) {
-        const auto prior = static_cast<double>(edges[e].prior);
-        const double value = edges[e].weight() > 0 ? edges[e].value : node.value;
-        const double bound = value + scale * prior / (1 + edges[e].weight());
+        const Arm& arm = tree().arms(node)[e];
+        const double value = arm.weight > 0 ? arm.value : node.value;
+        const double bound = value + scale * static_cast<double>(edges[e].prior) / (1 + arm.weight);
         if (!(bound > best)) continue;
         best = bound;
         chosen = e;
@@ -264,39 +282,76 @@ bool Uct::run_trials(const DecisionPoint& point, RandomStream& stream, BudgetMet
     }
     for (std::int64_t step = step_; step_trials(stream, step, meter); ++step) {
     }
-    if (!new_nodes_.empty() && !value_new_nodes(point, stream, meter, 1)) return false;
+    if (!new_nodes_.empty()) {
+        const bool is_done = value_new_nodes(point, stream, meter, 1);
+        for (const NodeId node : new_nodes_) tree().node(node).is_asked = false;
+        if (!is_done) {
+            cancel_trials();
+            return false;
+        }
+    }
+    ripe_.clear();
     for (const Trial& trial : trials_) back_up(trial);
+    for (const NodeId id : ripe_)  // some are there twice
+        if (tree().node(id).weight >= tree().node(id).twins_at)
+            compare_twins(id, point, stream, meter);
     meter.add_iterations(static_cast<std::int64_t>(trials_.size()));
     return true;
+}
+
+void Uct::cancel_trials() {
+    for (const Trial& trial : trials_)
+        for (const Trial::Hop& hop : trial.hops) tree().cancel(hop.node, hop.edge, hop.outcome);
 }
 
 // False: all have reached their leaves.
 bool Uct::step_trials(RandomStream& stream, std::int64_t step, BudgetMeter& meter) {
     std::int64_t moving = 0;
     for (const Trial& trial : trials_)
-        if (!trial.is_down) tree().prefetch_edges(tree().node(trial.node));
-    for (std::size_t k = 0; k < trials_.size(); ++k) {
-        Trial& trial = trials_[k];
+        if (!trial.is_down) tree().prefetch_arms(tree().node(trial.node));
+    for (Trial& trial : trials_) {
         const Node& node = tree().node(trial.node);
         trial.is_down = trial.is_down || !node.is_open || node.is_locked;
-        std::uint32_t action = 0;
-        if (!trial.is_down) {
-            const EdgeId edge = choose_edge(node, stream);
-            tree().edge(edge).started += 1;
-            trial.hops.push_back({trial.node, edge, 0});
-            action = tree().edge(edge).action;
-            ++moving;
-        }
-        std::copy_n(actions_.record(action), action_size_, records_.data() + k * action_size_);
+        if (trial.is_down) continue;
+        const EdgeId edge = choose_edge(node, stream);
+        tree().start(trial.node, edge);
+        tree().prefetch_edge(edge);
+        trial.hops.push_back({trial.node, edge, 0, 0});
+        ++moving;
     }
     if (moving == 0) return false;
+    write_actions();
     trees_.step(records_.data());
     meter.add_steps(moving);
     solvers::require_done(simulator_,
                           simulator_.get_state(trees_.batch(), 0, trees_.count(), states_.data()));
+    find_keys(step + 1);
     for (std::size_t k = 0; k < trials_.size(); ++k)
         if (!trials_[k].is_down) follow(k, stream, step + 1);
     return true;
+}
+
+// Trials that are down do anything.
+void Uct::write_actions() {
+    for (std::size_t k = 0; k < trials_.size(); ++k) {
+        const Trial& trial = trials_[k];
+        const std::uint32_t action = trial.is_down ? 0 : tree().edge(trial.hops.back().edge).action;
+        std::copy_n(actions_.record(action), action_size_, records_.data() + k * action_size_);
+    }
+}
+
+// Of the states where trials are. Most of the time of a trial is that of the memory which it reads:
+// so it is asked for ahead.
+void Uct::find_keys(std::int64_t step) {
+    for (std::size_t k = 0; k < trials_.size(); ++k) {
+        if (trials_[k].is_down) continue;
+        keys_[k] = tree().key_of(states_.data() + k * state_size_, step);
+        tree().prefetch(keys_[k]);
+    }
+    for (std::size_t k = 0; k < trials_.size(); ++k) {
+        if (trials_[k].is_down) continue;
+        if (const NodeId* const known = tree().find(keys_[k])) tree().prefetch_node(*known);
+    }
 }
 
 // Follows the trial's environment to the node where it is now.
@@ -307,34 +362,44 @@ void Uct::follow(std::size_t k, RandomStream& stream, std::int64_t step) {
     const std::byte* const state = states_.data() + k * state_size_;
     NodeId next = Tree::over;
     if (trees_.is_running(k) && step < end_) {
-        const NodeId* const known = tree().find(state, step);
-        const Edge& edge = tree().edge(hop.edge);
-        const bool is_full =
-            options_.outcomes > 0 &&
-            edge.outcome_count >= std::ceil(options_.outcomes * std::sqrt(edge.started));
+        const NodeId* const known = tree().find(keys_[k]);
         if (known) {
             next = *known;
-        } else if (is_full && (next = tree().seen_outcome(hop.edge, stream.unit())) != Tree::over) {
+        } else if (is_full(hop.edge) &&
+                   (next = tree().seen_outcome(hop.edge, stream.unit())) != Tree::over) {
             // Progressive widening: the trial goes on from an outcome that was seen before.
             solvers::require_done(
                 simulator_, simulator_.set_state(trees_.batch(), static_cast<std::int64_t>(k), 1,
                                                  tree().state(next), &step));
         } else {
-            next = tree().node_of(state, step);
+            next = tree().node_of(keys_[k], state, step);
             if (!is_determinised())  // otherwise it knows what is legal
                 add_edges(next, {trees_.batch(), static_cast<std::int64_t>(k)});
+        }
+        Node& node = tree().node(next);
+        if (!node.is_open && !node.is_asked) {
+            node.is_asked = true;
             new_nodes_.push_back(next);
         }
     }
-    tree().add_outcome(hop.edge, next);
+    hop.outcome = tree().add_outcome(hop.edge, next);
     trial.node = next;
+}
+
+// Whether the edge has as many outcomes as its trials may distinguish.
+bool Uct::is_full(EdgeId edge) const {
+    const double started = tree().arm(edge).weight;
+    return options_.outcomes > 0 &&
+           tree().edge(edge).outcome_count >= std::ceil(options_.outcomes * std::sqrt(started));
 }
 
 void Uct::back_up(const Trial& trial) {
     double rest = tree().node(trial.node).value;
     for (std::size_t h = trial.hops.size(); h-- > 0;) {
         const Trial::Hop& hop = trial.hops[h];
-        tree().back_up(hop.node, hop.edge, hop.reward, rest);
+        tree().back_up(hop.node, hop.edge, hop.outcome, hop.reward, rest);
+        const Node& node = tree().node(hop.node);
+        if (node.weight >= node.twins_at) ripe_.push_back(hop.node);
         rest = hop.reward + tree().discount() * rest;
     }
     note_return(rest);
@@ -352,17 +417,18 @@ EdgeId Uct::best_edge() const {
     EdgeId chosen = node.first_edge;
     float likeliest = 0;  // is taken where there were no trials
     for (const Edge& edge : tree().edges(node)) {
-        most = std::max(most, edge.weight());
+        most = std::max(most, edge.known_weight());
         if (edge.prior <= likeliest) continue;
         likeliest = edge.prior;
         chosen = tree().id_of(edge);
     }
     double best = -std::numeric_limits<double>::infinity();
     for (const Edge& edge : tree().edges(node)) {
-        if (edge.weight() == 0 || edge.weight() < least_tried * most || !(edge.value > best))
-            continue;
-        best = edge.value;
-        chosen = tree().id_of(edge);
+        const EdgeId id = tree().id_of(edge);
+        const std::int32_t weight = edge.known_weight();
+        if (weight == 0 || weight < least_tried * most || !(tree().arm(id).value > best)) continue;
+        best = tree().arm(id).value;
+        chosen = id;
     }
     return chosen;
 }
@@ -395,7 +461,8 @@ EdgeId Uct::search(const DecisionPoint& point, RandomStream& stream, BudgetMeter
 
 // Keeps what the next decision may use, if it is small enough.
 void Uct::keep_below(EdgeId edge) {
-    tree().keep_below(edge);
+    const std::size_t most = std::min(most_garbage, most_kept_bytes_ / 2);
+    if (tree().bytes() > most) tree().keep_below(edge);
     if (memory_->bytes() <= most_kept_bytes_) return;
     if (tree().bytes() > most_kept_bytes_ / 2) tree().clear();
     if (memory_->determinised.bytes() > most_kept_bytes_ / 2) memory_->determinised.clear();
@@ -413,8 +480,10 @@ void Uct::note_explanation(Explanation& explanation, EdgeId chosen, const Budget
     explanation.chosen = chosen - root.first_edge;
     for (const Edge& edge : tree().edges(root)) {
         const std::byte* const record = actions_.record(edge.action);
+        const std::int32_t trials = edge.done + edge.estimates;
+        const double value = trials > 0 ? tree().arm(tree().id_of(edge)).value : 0;
         explanation.candidates.push_back(
-            {"action", {record, record + action_size_}, edge.value, 0, edge.done + edge.estimates});
+            {"action", {record, record + action_size_}, value, 0, trials});
     }
 }
 

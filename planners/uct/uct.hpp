@@ -40,6 +40,7 @@ class Uct : public Planner {
         struct Hop {
             NodeId node;
             EdgeId edge;
+            std::uint32_t outcome;
             double reward;
         };
         std::vector<Hop> hops;
@@ -63,12 +64,17 @@ class Uct : public Planner {
     const Tree& tree() const { return memory_->tree; }
     void choose_policy(const DecisionPoint& point, RandomStream& stream, BudgetMeter& meter);
     bool open_root(const DecisionPoint& point, RandomStream& stream, BudgetMeter& meter);
+    bool value_root(const DecisionPoint& point, RandomStream& stream, BudgetMeter& meter);
     void confirm_root(const DecisionPoint& point, RandomStream& stream, BudgetMeter& meter);
     // The trials of one round; false where time was up, and nothing has changed but counts.
     bool run_trials(const DecisionPoint& point, RandomStream& stream, BudgetMeter& meter);
     bool step_trials(RandomStream& stream, std::int64_t depth, BudgetMeter& meter);
+    void cancel_trials();
+    void write_actions();
+    void find_keys(std::int64_t step);
     void follow(std::size_t k, RandomStream& stream, std::int64_t depth);
     EdgeId choose_edge(const Node& node, RandomStream& stream);
+    EdgeId choose_untried(const Node& node, RandomStream& stream);
     EdgeId choose_by_prior(const Node& node) const;
     // The deviation of values that counts as much as a lack of trials, at that node.
     double bonus(const Node& node) const;
@@ -94,6 +100,17 @@ class Uct : public Planner {
     double estimate(const DeterminisedProblem::Move& move, const Node& node);
     bool value_by_policy(const DecisionPoint& point, RandomStream& stream, BudgetMeter& meter,
                          std::size_t draws);
+    void add_move(NodeId node, const DeterminisedProblem::Move& move);
+    // The weight of a node from which on draws compare twins of its state.
+    std::int32_t twins_at(DeterminisedProblem::StateId state) const;
+    void compare_twins(NodeId node, const DecisionPoint& point, RandomStream& stream,
+                       BudgetMeter& meter);
+    void add_late_moves(NodeId node, DeterminisedProblem::StateId state);
+    void compare_all_twins(const DecisionPoint& point, RandomStream& stream, BudgetMeter& meter);
+    bool draw_twins(NodeId node, DeterminisedProblem::StateId state, std::int32_t draws,
+                    const DecisionPoint& point, RandomStream& stream, BudgetMeter& meter);
+    // Of steps that continuations have made.
+    bool has_same_outcome(std::size_t k, std::size_t j) const;
     void lock(Node& node, double reward);
     void take_values(std::size_t first, std::size_t count);
     std::optional<bool> stays_unchanged(const DecisionPoint& point, std::size_t n,
@@ -102,6 +119,7 @@ class Uct : public Planner {
                              BudgetMeter& meter);
     bool is_unchanged(NodeId id, std::size_t n, std::size_t k) const;
     void note_range();
+    bool is_full(EdgeId edge) const;
     void back_up(const Trial& trial);
     void note_return(double value);
     double value_of(std::size_t k) const;
@@ -129,12 +147,16 @@ class Uct : public Planner {
     std::int64_t end_ = 0;   // the step that the search looks ahead to
     std::vector<Trial> trials_;
     std::vector<std::uint64_t> streams_;
+    std::vector<std::uint64_t> keys_;  // of the nodes where trials are
     std::vector<std::byte> records_, states_, judged_states_;
     std::vector<std::int64_t> judged_steps_;
     std::vector<float> prior_rows_;
     std::vector<double> judged_values_;
     std::vector<std::uint8_t> legal_;
     std::vector<NodeId> new_nodes_;
+    std::vector<NodeId> ripe_;           // of the round: nodes whose twins are compared next
+    std::vector<std::uint8_t> differs_;  // by twin
+    std::vector<std::uint32_t> drawn_actions_;
     // The requests to continuations, and the node and edge of each.
     struct Asked {
         NodeId node;

@@ -54,8 +54,9 @@ solvers::OptionTable<UctOptions> make_uct_table() {
             {"initial", "initial", "HOW",
              "A new state is valued by a search in the determinised problem (determinised; the "
              "default without a policy), by each of its actions and the policy after it "
-             "(lookahead; the default with a policy), by the policy alone (rollout), or by the "
-             "values that PPO has learned (value)"},
+             "(lookahead; the default with a policy without values), by the policy alone "
+             "(rollout), "
+             "or by the values that PPO has learned (value; the default with such a policy)"},
             [](auto& o) -> auto& { return o.initial; },
             {{"determinised", Initial::Determinised},
              {"lookahead", Initial::Lookahead},

@@ -18,8 +18,9 @@ struct UctOptions : CommonOptions {
     // A node with n trials has at most width * n^widening actions, where they cannot be listed.
     double width = 1, widening = 0.5;
     Backup backup = Backup::Max;
-    int lookahead = 256;             // states that a search in the determinised problem may meet
-    std::optional<Initial> initial;  // nothing: Lookahead with a policy, else Determinised
+    int lookahead = 256;  // states that a search in the determinised problem may meet
+    // Nothing: Value with a policy that has values, Lookahead with another one, else Determinised.
+    std::optional<Initial> initial;
 };
 
 const solvers::OptionTable<UctOptions>& uct_option_table();

@@ -60,6 +60,20 @@ std::uint64_t seed_of(std::uint64_t seed, std::int64_t gradient, std::int64_t ep
     return static_cast<std::uint64_t>(key.high) << 32 | key.low;
 }
 
+// Throws a Failure where gradients take more memory than they may.
+std::unique_ptr<StepDerivatives> derivatives_of(const DerivativesSource& source,
+                                                const DrpOptions& options, const PpoModel& model,
+                                                std::int64_t horizon) {
+    auto derivatives = source({.mode = options.relaxation, .sharpness = options.sharpness});
+    const double bytes = static_cast<double>(derivatives->bytes()) +
+                         ReturnGradient::bytes(model, *derivatives, horizon);
+    if (bytes <= static_cast<double>(options.memory_limit)) return derivatives;
+    throw Failure(
+        fmt::format("gradients of {} steps would take about {}, more than the limit of {}", horizon,
+                    memory_text(bytes), memory_text(static_cast<double>(options.memory_limit))),
+        "try a smaller --horizon, or a larger --memory-limit");
+}
+
 }  // namespace
 
 struct DrpTrainer::State {
@@ -69,26 +83,14 @@ struct DrpTrainer::State {
           options(its_options),
           horizon(horizon_of(simulator, options)),
           model(model_of(simulator, options)),
-          derivatives(source({.mode = options.relaxation, .sharpness = options.sharpness})),
-          gradient_of_return((require_memory(), simulator), model, *derivatives, horizon,
-                             !is_soft()),
+          derivatives(derivatives_of(source, options, model, horizon)),
+          gradient_of_return(simulator, model, *derivatives, horizon, !is_soft()),
           gradient(model.policy.parameters),
           first_moments(gradient.size()),
           second_moments(gradient.size()),
           features(static_cast<std::size_t>(model.features())),
           seen(features.size()) {
         groups = (options.episodes + lanes - 1) / lanes;
-    }
-
-    void require_memory() const {
-        const double bytes = static_cast<double>(derivatives->bytes()) +
-                             ReturnGradient::bytes(model, *derivatives, horizon);
-        if (bytes <= static_cast<double>(options.memory_limit)) return;
-        throw Failure(fmt::format("gradients of {} steps would take about {}, more than the limit "
-                                  "of {}",
-                                  horizon, memory_text(bytes),
-                                  memory_text(static_cast<double>(options.memory_limit))),
-                      "try a smaller --horizon, or a larger --memory-limit");
     }
 
     bool is_soft() const {

@@ -45,6 +45,28 @@ TEST_F(BuilderTest, GivesEqualExpressionsEqualIds) {
     EXPECT_NE(w.integer(1), w.boolean(true));
 }
 
+// An index of a loop lies between 0 and the number of objects.
+TEST_F(BuilderTest, KnowsTheOrderOfIntsFromTheirRanges) {
+    const NodeId c = w.builder().index(w.c);
+    const auto last = static_cast<std::int64_t>(w.program[w.c].size) - 1;
+    ASSERT_GT(last, 0);
+    EXPECT_EQ(w.apply(Operator::GreaterEqual, c, w.integer(0)), w.boolean(true));
+    EXPECT_EQ(w.apply(Operator::Less, c, w.integer(0)), w.boolean(false));
+    EXPECT_EQ(w.apply(Operator::Greater, w.integer(last + 1), c), w.boolean(true));
+    EXPECT_EQ(w.apply(Operator::LessEqual, w.integer(last + 1), c), w.boolean(false));
+    EXPECT_EQ(w.apply(Operator::Maximum, c, w.integer(0)), c);
+    EXPECT_EQ(w.apply(Operator::Minimum, w.integer(last), c), c);
+    EXPECT_EQ(w.apply(Operator::Minimum, c, w.integer(0)), w.integer(0));
+    for (const NodeId open : {w.apply(Operator::Less, c, w.integer(last)),
+                              w.apply(Operator::Less, count(), w.integer(0)),
+                              w.apply(Operator::Maximum, c, w.integer(1))})
+        EXPECT_TRUE(std::holds_alternative<Apply>(w.program[open].form)) << text(open);
+    // These are the same double.
+    const NodeId large = w.apply(Operator::Less, w.apply(Operator::Add, c, w.integer(greatest)),
+                                 w.integer(greatest - 1));
+    EXPECT_TRUE(std::holds_alternative<Apply>(w.program[large].form));
+}
+
 TEST_F(BuilderTest, FoldsConstantsAsTheRuntimeComputesThem) {
     EXPECT_EQ(w.apply(Operator::Add, w.integer(greatest), w.integer(1)), w.integer(least));
     EXPECT_EQ(w.apply(Operator::FloorDivide, w.integer(-7), w.integer(2)), w.integer(-4));

@@ -8,6 +8,8 @@
 
 #include <cmath>
 #include <cstring>
+#include <limits>
+#include <string>
 #include <tuple>
 #include <vector>
 
@@ -67,11 +69,11 @@ TEST(Uct, SeesWhereNothingChanges) {
     EXPECT_GT(over, 0);
 }
 
-workbench::LoadedProblem corridor() {
+workbench::LoadedProblem interpreted(const std::string& name) {
     workbench::ProblemFiles files;
-    files.name = "corridor";
-    files.domain = PROBLEMS "/corridor/domain.rddl";
-    files.instance = PROBLEMS "/corridor/instance.rddl";
+    files.name = name;
+    files.domain = PROBLEMS "/" + name + "/domain.rddl";
+    files.instance = PROBLEMS "/" + name + "/instance.rddl";
     workbench::LoadOptions load;
     load.engine = workbench::Engine::Interpreter;
     return workbench::load_problem(files, load);
@@ -79,7 +81,7 @@ workbench::LoadedProblem corridor() {
 
 // A decision whose steps do not last for those draws leaves the question to a later one.
 TEST(Uct, SeesLaterWhereNothingChangesIfABudgetWasTooShort) {
-    const workbench::LoadedProblem problem = corridor();
+    const workbench::LoadedProblem problem = interpreted("corridor");
     const Played plan =
         run(*problem.simulator, "plan:uct,lanes=1,steps=2100,initial=determinised", 3);
     int over = 0;
@@ -135,7 +137,7 @@ TEST(Uct, ForgetsAnEpisodeAfterAnError) {
 // A goal that no random play meets is found in the determinised problem: 12 steps, of which each is
 // made 1 / 0.9 times. The mean of 20 episodes has an error of 0.3.
 TEST(Uct, FindsADistantGoal) {
-    const workbench::LoadedProblem problem = corridor();
+    const workbench::LoadedProblem problem = interpreted("corridor");
     const std::string planner = "plan:uct,iterations=50,lanes=8";
     EXPECT_NEAR(run(*problem.simulator, planner, 20).mean(), -13.3, 1.2);
     EXPECT_LT(run(*problem.simulator, planner + ",initial=rollout").mean(), -29);
@@ -197,7 +199,7 @@ TEST(Uct, KeepsTheTreeFromOneDecisionToTheNext) {
 
 // The typical outcome of a step forward is the next place. The goal is 12 of them away.
 TEST(DeterminisedProblem, HasTheValuesOfTypicalCourses) {
-    const workbench::LoadedProblem loaded = corridor();
+    const workbench::LoadedProblem loaded = interpreted("corridor");
     const rddl_simulator& simulator = *loaded.simulator;
     const auto size = static_cast<std::size_t>(simulator.problem->state_size);
     const auto actions = FiniteActions::of(simulator, solvers::action_space(simulator), 10);
@@ -218,7 +220,9 @@ TEST(DeterminisedProblem, HasTheValuesOfTypicalCourses) {
     ASSERT_TRUE(problem.open({&start, 1}, steps, meter));
     EXPECT_EQ(meter.steps(), made);  // all is known
     const auto moves = problem.moves(start);
-    ASSERT_EQ(moves.size(), 3u);  // no-op, forward, side
+    ASSERT_EQ(moves.size(), 2u);  // no-op, forward
+    ASSERT_EQ(problem.twins(start).size(), 1u);
+    EXPECT_EQ(problem.twins(start)[0].action, 2u);  // side: as no-op
     const std::tuple<int, std::int64_t, double> courses[] = {
         {1, 5, -5}, {1, 13, -12}, {1, 20, -12}, {0, 1, -1}, {0, 20, -13}};
     for (const auto& [move, depth, value] : courses) {
@@ -235,6 +239,106 @@ TEST(DeterminisedProblem, HasTheValuesOfTypicalCourses) {
     BudgetMeter empty(none, nullptr);
     problem.clear();
     EXPECT_EQ(problem.affordable_depth(problem.state_of(record.data()), 20, 5, steps, empty), 0);
+}
+
+// All three actions have the same typical outcome. Draws tell a wish from no-op, and a prayer is
+// the same as no-op. Wishes are worth 0.3 + 0.51 + 0.657.
+TEST(Uct, TellsTwinsApartByDraws) {
+    const workbench::LoadedProblem problem = interpreted("lottery");
+    const Played plan = run(*problem.simulator, "plan:uct,iterations=4000", 20);
+    const Explanation& first = plan.thought(0, 0);
+    ASSERT_EQ(first.candidates.size(), 2u);
+    EXPECT_EQ(first.chosen, 1u);
+    EXPECT_NEAR(first.candidates[1].value, 1.467, 0.1);
+    EXPECT_EQ(plan.returns(), run(*problem.simulator, "plan:uct,iterations=4000", 20, 3).returns());
+    // No draws, no difference.
+    EXPECT_EQ(run(*problem.simulator, "plan:uct,steps=40,initial=determinised,lanes=1")
+                  .thought(0, 0)
+                  .candidates.size(),
+              1u);
+}
+
+TEST(DeterminisedProblem, MakesMovesOfTwinsThatDiffer) {
+    const workbench::LoadedProblem loaded = interpreted("lottery");
+    const rddl_simulator& simulator = *loaded.simulator;
+    const auto actions = FiniteActions::of(simulator, solvers::action_space(simulator), 10);
+    ASSERT_TRUE(actions);
+    TypicalSteps steps(simulator, *actions);
+    DeterminisedProblem problem(static_cast<std::size_t>(simulator.problem->state_size), 1);
+    std::vector<std::byte> record(static_cast<std::size_t>(simulator.problem->state_size));
+    simulator.initial_state(&simulator, record.data());
+    const auto start = problem.state_of(record.data());
+    Budget budget;
+    budget.iterations = 1;
+    BudgetMeter meter(budget, nullptr);
+    ASSERT_TRUE(problem.open({&start, 1}, steps, meter));
+    ASSERT_EQ(problem.moves(start).size(), 1u);
+    ASSERT_EQ(problem.twins(start).size(), 2u);
+    const std::vector<std::uint8_t> last_differs{0, 1};
+    problem.add_comparison(start, 4, last_differs);
+    ASSERT_EQ(problem.moves(start).size(), 2u);
+    EXPECT_EQ(problem.moves(start)[1].action, 2u);
+    ASSERT_EQ(problem.twins(start).size(), 1u);
+    EXPECT_EQ(problem.twins(start)[0].action, 1u);
+    EXPECT_EQ(problem.compared(start), 4);
+    problem.forget_twins(start);
+    EXPECT_TRUE(problem.twins(start).empty());
+    EXPECT_EQ(problem.moves(start).size(), 2u);
+}
+
+// Edges that are added later leave those that there are as they were.
+TEST(Tree, AddsEdgesLater) {
+    Tree tree(8, 1, Backup::Max);
+    tree.clear();
+    const std::vector<std::byte> first(8), second(8, std::byte{1});
+    const NodeId node = tree.node_of(first.data(), 0), other = tree.node_of(second.data(), 0);
+    tree.add_estimate(node, tree.add_edge(node, 5), 3);
+    tree.add_estimate(other, tree.add_edge(other, 6), 4);
+    tree.start(node, tree.node(node).first_edge);
+    tree.back_up(node, tree.node(node).first_edge,
+                 tree.add_outcome(tree.node(node).first_edge, other), 1, 0);
+    tree.reopen_edges(node);
+    tree.add_estimate(node, tree.add_edge(node, 7), 2);
+    const auto edges = tree.edges(tree.node(node));
+    ASSERT_EQ(edges.size(), 2u);
+    EXPECT_EQ(edges[0].action, 5u);
+    EXPECT_EQ(edges[0].done, 1);
+    EXPECT_EQ(edges[1].action, 7u);
+    EXPECT_EQ(tree.arms(tree.node(node))[0].weight, 2);
+    EXPECT_EQ(tree.node(node).weight, 3);
+    EXPECT_EQ(tree.add_outcome(tree.node(node).first_edge, other), 0u);  // not another one
+    EXPECT_EQ(tree.edges(tree.node(other))[0].action, 6u);
+}
+
+// A state that several actions lead to has a place among the outcomes of each. The sum that an edge
+// keeps is that of its outcomes, by the values that they had in its own trials.
+TEST(Tree, SumsOutcomesAsTheyCome) {
+    Tree tree(8, 1, Backup::Max);
+    tree.clear();
+    const std::vector<std::byte> first(8), second(8, std::byte{1}), third(8, std::byte{2});
+    const NodeId node = tree.node_of(first.data(), 0), good = tree.node_of(second.data(), 1),
+                 bad = tree.node_of(third.data(), 1);
+    const EdgeId left = tree.add_edge(node, 0), right = tree.add_edge(node, 1);
+    const auto go = [&](EdgeId edge, NodeId to) {
+        tree.start(node, edge);
+        tree.back_up(node, edge, tree.add_outcome(edge, to), 0, 0);
+        return tree.arm(edge).value;
+    };
+    tree.node(good).value = 6;
+    tree.node(bad).value = -3;
+    EXPECT_EQ(go(left, good), 6);
+    EXPECT_EQ(go(left, bad), 1.5);
+    EXPECT_EQ(go(right, good), 6);
+    EXPECT_EQ(tree.node(node).best, 1);
+    tree.node(good).value = 9;
+    EXPECT_EQ(go(left, bad), 0);   // 6, -3, -3
+    EXPECT_EQ(go(left, good), 3);  // 9, 9, -3, -3
+    tree.node(bad).value = -std::numeric_limits<double>::infinity();
+    EXPECT_EQ(go(left, bad), -std::numeric_limits<double>::infinity());
+    EXPECT_EQ(go(left, bad), -std::numeric_limits<double>::infinity());
+    tree.node(bad).value = 0;
+    EXPECT_DOUBLE_EQ(go(left, bad), 18.0 / 7);  // 9, 9, and 0 five times
+    EXPECT_EQ(tree.node(node).value, 6);
 }
 
 // The tree keeps all that follows the action, with its counts, and forgets the rest.
@@ -254,15 +358,18 @@ TEST(Tree, KeepsWhatIsBelowAnAction) {
     };
     const NodeId root = add(1, 0), left = add(2, 1), right = add(3, 1), last = add(4, 2);
     const NodeId closed = tree.node_of(state(5).data(), 2);
-    const auto go = [&](NodeId from, std::uint32_t action, NodeId to, double reward, double rest) {
+    const auto start = [&](NodeId from, std::uint32_t action, NodeId to) {
         const EdgeId edge = tree.node(from).first_edge + action;
-        tree.edge(edge).started += 1;
-        tree.add_outcome(edge, to);
-        tree.back_up(from, edge, reward, rest);
+        tree.start(from, edge);
+        return tree.add_outcome(edge, to);
+    };
+    const auto go = [&](NodeId from, std::uint32_t action, NodeId to, double reward, double rest) {
+        const std::uint32_t outcome = start(from, action, to);
+        tree.back_up(from, tree.node(from).first_edge + action, outcome, reward, rest);
     };
     go(last, 1, Tree::over, 5, 0);
     go(right, 0, last, 1, 5);
-    go(right, 0, closed, 1, 0);
+    tree.cancel(right, tree.node(right).first_edge, start(right, 0, closed));
     go(root, 0, left, 0, 0);
     go(root, 1, right, 2, 6);
     const double value = tree.node(right).value;
@@ -275,10 +382,12 @@ TEST(Tree, KeepsWhatIsBelowAnAction) {
     ASSERT_NE(kept, nullptr);
     EXPECT_EQ(tree.node(*kept).value, value);
     const Edge& edge = tree.edges(tree.node(*kept))[0];
-    EXPECT_EQ(edge.done, 2);
+    EXPECT_EQ(edge.done, 1);
+    EXPECT_EQ(tree.node(*kept).weight, 1);
+    EXPECT_EQ(tree.node(*kept).untried, 1);
     EXPECT_EQ(edge.outcome_count, 1);
     EXPECT_EQ(tree.seen_outcome(tree.id_of(edge), 0.5), *tree.find(state(4).data(), 2));
-    EXPECT_EQ(tree.edges(tree.node(*tree.find(state(4).data(), 2)))[1].value, 5);
+    EXPECT_EQ(tree.arms(tree.node(*tree.find(state(4).data(), 2)))[1].value, 5);
 }
 
 // With few outcomes that are distinguished, trials go on from those that were seen.
@@ -312,6 +421,9 @@ TEST(Uct, ValuesNewStatesByTheValuesOfAPolicy) {
             EXPECT_NEAR(candidate.value, 4.75, 0.4);
         }
     EXPECT_NEAR(plan.mean(), 4.75, 2);
+    // It is the default where the policy has values.
+    EXPECT_EQ(plan.returns(),
+              run(ladder(), "plan:uct,iterations=4000,policy=knows the ladder", 20).returns());
     // Without a trial the policy's likeliest action is taken.
     const Played none = run(ladder(), "plan:uct,steps=2,policy=knows the ladder,initial=value");
     EXPECT_EQ(none.mean(), 4);

@@ -122,7 +122,7 @@ Expression Expressions::lower(const ir::Node& node, const ir::Search& search) {
                       {lower(search.value)});
 }
 
-// "rddl::at_places(state.up, x, up_places)": for several objects; else "rddl::element(state.up,
+// "rddl::at_places<up_places>(state.up, x)": for several objects; else "rddl::element(state.up,
 // i)".
 Expression Expressions::lower(const ir::Node&, const ir::Element& element) {
     if (!several_)
@@ -130,15 +130,22 @@ Expression Expressions::lower(const ir::Node&, const ir::Element& element) {
                       tree::call("rddl::element", {record(element.buffer), index(element.place)}));
     const auto& places = std::get<ir::Load>(unit_.program[element.place].form);
     return tested(element.buffer,
-                  tree::call("rddl::at_places", {record(element.buffer), word(several_->objects),
-                                                 record(places.buffer)}));
+                  tree::call("rddl::at_places<" + unit_.names.buffers[places.buffer.index] + ">",
+                             {record(element.buffer), word(several_->objects)}));
 }
 
 Expression Expressions::lower(const ir::Node&, const ir::Bits& bits) {
     const std::string first = bits.first == 0 ? "" : "<" + std::to_string(bits.first) + ">";
     const bool of_action = unit_.program[bits.buffer].storage == ir::Storage::Action;
     const std::string function = of_action ? "rddl::action_bits" : "rddl::bits";
-    return tree::call(function + first, {record(bits.buffer)});
+    return tree::call(function + first, {elements(record(bits.buffer), bits.indices)});
+}
+
+// "rddl::union_of(moves_, rddl::bits(state.at[c]), action.move[c])"
+Expression Expressions::lower(const ir::Node&, const ir::Union& form) {
+    tree::Expressions arguments = {record(form.masks), lower(form.bits)};
+    append(arguments, all_of(form.row));
+    return tree::call("rddl::union_of", std::move(arguments));
 }
 
 Expression Expressions::lower(const ir::Node&, const ir::Local& local) {
@@ -181,7 +188,9 @@ Expression Expressions::lower(const ir::Node& node, const ir::Reduce&) {
 Expression Expressions::lower(const ir::Node&, const ir::Sample& sample) {
     const std::string function =
         sample.is_valid ? "valid_bernoulli" : function_of(sample.distribution);
-    return call("sample::" + function, sample.parameters, sample.place);
+    tree::Expressions arguments = place_of_draw(sample.place, sample.distribution);
+    append(arguments, all_of(sample.parameters));
+    return tree::call("rddl::sample::" + function, std::move(arguments));
 }
 
 Expression Expressions::lower(const ir::Node&, const ir::Discrete& discrete) {
@@ -206,7 +215,7 @@ Expression Expressions::lower(const ir::Node& node, const ir::DiscreteOver&) {
 
 // "rddl::sample::interval<weather_thresholds_>(context, {0, c}, state.weather[c])"
 Expression Expressions::lower(const ir::Node&, const ir::Interval& interval) {
-    tree::Expressions arguments = place(interval.place);
+    tree::Expressions arguments = place_of_draw(interval.place);
     std::span<const ir::NodeId> row = interval.row;
     if (several_ && ir::begins_with(unit_.program, interval.row, several_->nest)) {
         arguments.push_back(word(several_->objects));
@@ -236,13 +245,22 @@ Expression Expressions::call(std::string_view function, const std::vector<ir::No
     return tree::call("rddl::" + std::string(function), std::move(arguments));
 }
 
-tree::Expressions Expressions::place(const ir::Place& place) {
+tree::Expressions Expressions::place_of_draw(const ir::Place& place,
+                                             std::optional<Distribution> distribution) {
+    const bool may_be_lone = !distribution || distribution == Distribution::Bernoulli ||
+                             distribution == Distribution::Normal;
+    const bool is_lone =
+        may_be_lone && unit_.has_few_lone_draws && !several_ && unit_.is_lone(place);
+    return this->place(place, is_lone ? "rddl::LonePlace" : "");
+}
+
+tree::Expressions Expressions::place(const ir::Place& place, const std::string& type) {
     uses_.context = true;
     const auto& series = unit_.program[place.site].series;
     tree::Expressions numbers = {tree::number(place.site.index),
                                  several_ ? word(several_->objects) : index(place.index)};
     if (series) numbers.push_back(tree::number(series->index));
-    return {word(context()), braces("", std::move(numbers))};
+    return {word(context()), braces(type, std::move(numbers))};
 }
 
 const ir::Reduce* Expressions::over_true(const ir::Node& binder) const {

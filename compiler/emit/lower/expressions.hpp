@@ -114,6 +114,7 @@ class Expressions {
     tree::Expression lower(const ir::Node& node, const ir::Load& load);
     tree::Expression lower(const ir::Node& node, const ir::Search& search);
     tree::Expression lower(const ir::Node& node, const ir::Bits& bits);
+    tree::Expression lower(const ir::Node& node, const ir::Union& form);
     tree::Expression lower(const ir::Node& node, const ir::Element& element);
     tree::Expression lower(const ir::Node& node, const ir::Local& local);
     tree::Expression lower(const ir::Node& node, const ir::Convert& convert);
@@ -148,7 +149,11 @@ class Expressions {
     tree::Expression tested(ir::BufferId buffer, tree::Expression element) const;
     tree::Expressions all_of(std::span<const ir::NodeId> operands);
     // The context and the place of a draw or a fault.
-    tree::Expressions place(const ir::Place& place);
+    tree::Expressions place(const ir::Place& place, const std::string& type = "");
+    // "rddl::LonePlace" for one of a few draws that a step makes once. No distribution: an
+    // interval.
+    tree::Expressions place_of_draw(const ir::Place& place,
+                                    std::optional<Distribution> distribution = {});
     tree::Expression elements(tree::Expression table, std::span<const ir::NodeId> indices);
     tree::Expression view(const ir::TableView& view, bool is_written);
     tree::Statement external_call(const ir::Call& call);

@@ -27,6 +27,11 @@ constexpr std::size_t assignment_width = 3;       // " = "
 // An expression with more calls with lambdas inside is taken to pieces first.
 constexpr std::size_t most_lambda_calls = 64;
 
+// The table that the only statement of a nest fills.
+ir::BufferId only_target(const ir::Nest& nest) {
+    return ir::only_statement<ir::Store>(*nest.body)->target;
+}
+
 bool is_binder(const ir::Node& node) {
     return ir::bound_variable(node).has_value();
 }
@@ -77,7 +82,8 @@ std::string_view wish_for(const ir::Node& node) {
                 return "best";
         }
     }
-    if (std::holds_alternative<ir::Bits>(node.form)) return "bits";
+    if (std::holds_alternative<ir::Bits>(node.form) || std::holds_alternative<ir::Union>(node.form))
+        return "bits";
     const auto* apply = std::get_if<ir::Apply>(&node.form);
     if (apply && apply->op == Operator::CountOnes) return "count";
     if (apply && apply->op >= Operator::BitAnd && apply->op <= Operator::BitXor) return "bits";
@@ -137,6 +143,8 @@ void FunctionBody::statement(const ir::Loop& loop) {
 }
 
 // rddl::for_each_object(context, computer_count, [&](auto& several, auto x) { ... });
+// rddl::for_affected_objects<cell_count>(context, state.at, at_affects_rows_, at_affects_, next.at,
+//                                        [&](auto& several, auto c) { ... });
 // rddl::for_many_objects<cell_count>(context, [&](auto& several, auto c) { ... });
 void FunctionBody::over_several_objects(const ir::Loop& loop) {
     const auto before = expressions_.mark();
@@ -153,6 +161,16 @@ void FunctionBody::over_several_objects(const ir::Loop& loop) {
         has_context ? tree::Expression{tree::Declared{"auto&", context}} : tree::word("auto&"),
         {tree::Declared{"auto", objects}}};
     tree::Expression lambda{tree::Lambda{std::move(parameters), std::move(body)}};
+    if (loop.affected) {
+        const auto& [few, rows, affected] = *loop.affected;
+        statements_.push_back(
+            {tree::call("rddl::for_affected_objects<" + count + ">",
+                        tree::list(tree::word("context"), expressions_.record(few),
+                                   expressions_.record(rows), expressions_.record(affected),
+                                   expressions_.record(only_target(nest)), std::move(lambda)))});
+        expressions_.leave_nest();
+        return expressions_.return_to(before);
+    }
     statements_.push_back({loop.as_words
                                ? tree::call("rddl::for_many_objects<" + count + ">",
                                             tree::list(tree::word("context"), std::move(lambda)))
@@ -163,33 +181,71 @@ void FunctionBody::over_several_objects(const ir::Loop& loop) {
     expressions_.return_to(before);
 }
 
-// rddl::visit_true(scratch.at, state.near, ROAD_rows, [&](rddl::Index x, rddl::Index entry,
-//                                                         const Bool& is_there) { ... });
-void FunctionBody::statement(const ir::Scatter& scatter) {
+// rddl::spread(next.at[c], rddl::union_of(moves_, rddl::bits(state.at[c]), action.move[c]));
+void FunctionBody::statement(const ir::Spread& spread) {
     const auto before = expressions_.mark();
-    const auto& few = std::get<ir::Load>(program()[scatter.condition].form);
-    tree::Expressions arguments = {expressions_.target(scatter.target, {}),
-                                   expressions_.record(few.buffer),
-                                   expressions_.record(scatter.rows)};
+    prepare({line_width}, spread.bits);
+    tree::Expression row = expressions_.target(spread.target, spread.indices);
+    statements_.push_back(
+        {tree::call("rddl::spread", tree::list(std::move(row), value({line_width}, spread.bits)))});
+    expressions_.forget(before);
+}
+
+// const auto& near = rddl::true_elements(state.near);
+// rddl::visit_true(near, ROAD_rows_, [&](rddl::Index x, rddl::Index entry,
+//                                              const Bool& is_there) { ... });
+void FunctionBody::statement(const ir::Visit& visit) {
+    const auto& few = std::get<ir::Load>(program()[visit.condition].form);
+    const auto [elements, is_first] = true_elements_.try_emplace(few.buffer);
+    if (is_first) {
+        elements->second = expressions_.claim(program()[few.buffer].name);
+        statements_.push_back(
+            {tree::Assign{{tree::Declared{"const auto&", elements->second}},
+                          tree::call("rddl::true_elements", {expressions_.record(few.buffer)})}});
+    }
+    const auto before = expressions_.mark();
+    tree::Expressions arguments = {tree::word(elements->second)};
     const auto index = [&](ir::VariableId variable) {
         return tree::Expression{tree::Declared{"rddl::Index", expressions_.enter(variable)}};
     };
-    tree::Expressions parameters = {index(scatter.visited), index(scatter.entry)};
+    tree::Expressions parameters = {index(visit.visited)};
+    if (visit.entries) {
+        arguments.push_back(expressions_.record(visit.entries->rows));
+        parameters.push_back(index(visit.entries->variable));
+    }
     const std::string is_there = expressions_.claim("is_there");
     parameters.push_back(
         {tree::Declared{"const " + expressions_.type(ir::Scalar::Bool) + "&", is_there}});
     tree::Block body = inner(1, [&] {
-        const Use use{line_width};
-        prepare(use, scatter.value);
-        const tree::Expression reached = tree::operation(
-            plain_operator(Operator::And), {tree::word(is_there), value(use, scatter.value)});
-        const tree::Expression element = expressions_.target(scatter.target, scatter.indices);
-        statements_.push_back({tree::Assign{
-            element, tree::operation(plain_operator(Operator::Or), {element, reached})}});
+        for (auto each = visit.marks.begin(); each != visit.marks.end(); ++each) {
+            const bool is_shared =
+                std::find_if(std::next(each), visit.marks.end(), [&](const ir::Mark& other) {
+                    return other.condition == each->condition;
+                }) != visit.marks.end();
+            if (is_shared && !is_leaf(expressions_.unit(), each->condition))
+                name_value(each->condition);
+            mark(*each, is_there);
+        }
     });
     arguments.push_back({tree::Lambda{std::move(parameters), std::move(body)}});
     statements_.push_back({tree::call("rddl::visit_true", std::move(arguments))});
     expressions_.return_to(before);
+}
+
+// rddl::mark<true>(next.at[x], is_there && action.go[x]);
+void FunctionBody::mark(const ir::Mark& mark, const std::string& is_there) {
+    const auto before = expressions_.mark();
+    tree::Expression element = expressions_.target(mark.target, mark.indices);
+    prepare({line_width}, mark.condition);
+    const auto* constant = std::get_if<ir::Constant>(&program()[mark.condition].form);
+    tree::Expression condition =
+        constant && constant->value == ir::Value(true)
+            ? tree::word(is_there)
+            : tree::operation(plain_operator(Operator::And),
+                              {tree::word(is_there), value({line_width}, mark.condition)});
+    statements_.push_back({tree::call(mark.value ? "rddl::mark<true>" : "rddl::mark<false>",
+                                      tree::list(std::move(element), std::move(condition)))});
+    expressions_.forget(before);
 }
 
 void FunctionBody::statement(const ir::Call& call) {
@@ -331,7 +387,7 @@ tree::Expression FunctionBody::branch(const ir::Select& select) {
     lambdas.push_back(last);
 
     tree::Expressions arguments;
-    if (select.evaluated == ir::Evaluated::Branch) {
+    if (select.evaluated != ir::Evaluated::PackBoth) {
         expressions_.uses().context = true;
         arguments.push_back(tree::word(expressions_.context()));
     }

@@ -9,6 +9,7 @@
 #include "ir/ir.hpp"
 
 #include <cstddef>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -29,7 +30,9 @@ class FunctionBody {
     void statement(const ir::Let& let);
     void statement(const ir::Store& store);
     void statement(const ir::Loop& loop);
-    void statement(const ir::Scatter& scatter);
+    void statement(const ir::Spread& spread);
+    void statement(const ir::Visit& visit);
+    void mark(const ir::Mark& mark, const std::string& is_there);
     void over_several_objects(const ir::Loop& loop);
     void statement(const ir::Call& call);
 
@@ -76,6 +79,7 @@ class FunctionBody {
     Expressions expressions_;
     std::size_t level_;
     tree::Block statements_;
+    std::map<ir::BufferId, std::string> true_elements_;  // the names of visited ones, by table
 };
 
 }  // namespace rddlc::cpp

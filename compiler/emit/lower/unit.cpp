@@ -5,11 +5,16 @@
 #include "support/match.hpp"
 
 #include <algorithm>
+#include <cstdint>
 #include <filesystem>
+#include <variant>
 
 namespace rddlc::cpp {
 
 namespace {
+
+// More of them would make much machine code.
+constexpr std::int64_t most_lone_draws = 4;
 
 // If its operands are.
 bool keeps_uniform(const ir::Program& program, const ir::Node& node) {
@@ -31,7 +36,8 @@ Unit::Unit(const ir::Program& the_program, const Sources& the_sources,
       properties(ir::all_properties(the_program)),
       uniform_ints(the_program.nodes.size(), false),
       contains_branch(the_program.nodes.size(), false),
-      tests_action_bools(ir::tests_action_bools(the_program)) {
+      tests_action_bools(ir::tests_action_bools(the_program)),
+      has_few_lone_draws(count_lone_draws() <= most_lone_draws) {
     for (std::size_t index = 0; index < program.nodes.size(); ++index) {
         const ir::Node& node = program.nodes[index];
         const std::vector<ir::NodeId> operands = ir::operands_of(node);
@@ -44,6 +50,19 @@ Unit::Unit(const ir::Program& the_program, const Sources& the_sources,
             if (contains_branch[operand.index]) contains_branch[index] = true;
         }
     }
+}
+
+std::int64_t Unit::count_lone_draws() const {
+    return std::ranges::count_if(program.nodes, [&](const ir::Node& node) {
+        return match(
+            node.form, [&](const ir::Sample& sample) { return is_lone(sample.place); },
+            [&](const ir::Interval& interval) { return is_lone(interval.place); },
+            [](const auto&) { return false; });
+    });
+}
+
+bool Unit::is_lone(const ir::Place& place) const {
+    return std::holds_alternative<ir::Constant>(program[place.index].form);
 }
 
 std::string Unit::size_of(const ir::Variable& variable) const {

@@ -24,6 +24,7 @@ struct Unit {
     std::vector<bool> uniform_ints;          // by NodeId; is_uniform tells
     std::vector<bool> contains_branch;       // by NodeId: it branches, or has what does inside
     bool tests_action_bools;                 // ir/action_bools.hpp
+    bool has_few_lone_draws;                 // whose numbers are made where they are used
 
     const ir::Properties& properties_of(ir::NodeId id) const { return properties[id.index]; }
 
@@ -37,6 +38,12 @@ struct Unit {
     std::string count_of(std::uint32_t type, std::int64_t size) const;
     // "domain.rddl:41"
     std::string where(Span span) const;
+
+    // A draw that is made once in a step, not in a loop.
+    bool is_lone(const ir::Place& place) const;
+
+  private:
+    std::int64_t count_lone_draws() const;
 };
 
 }  // namespace rddlc::cpp

@@ -89,7 +89,7 @@ class Hoisting {
                 [&](const ir::Store& store) {
                     find_tables(store.value, around, around.size(), before);
                 },
-                [](const ir::Scatter&) {}, [](const ir::Call&) {});
+                [](const ir::Spread&) {}, [](const ir::Visit&) {}, [](const ir::Call&) {});
         }
     }
 

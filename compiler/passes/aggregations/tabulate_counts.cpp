@@ -2,6 +2,7 @@
 
 #include "ir/rewrite.hpp"
 #include "passes/analyses/constant_values.hpp"
+#include "passes/analyses/counters.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -20,6 +21,8 @@ constexpr double largest_range = 256;
 // elements each of them is worth.
 constexpr double worth_a_count_table = 8;
 constexpr double elements_for_an_operation = 64;
+// The same where a test comes first whether the table has the element.
+constexpr double worth_a_tested_table = 16;
 // A table of several kinds of objects has this many times fewer rows, at least.
 constexpr std::size_t objects_of_a_kind = 4;
 constexpr std::size_t most_kinds = 64;
@@ -35,7 +38,11 @@ struct Dependence {
 class CountTabulation {
   public:
     CountTabulation(ir::Program program, Report& report)
-        : program_(std::move(program)), report_(report), builder_(program_), evaluator_(program_) {
+        : program_(std::move(program)),
+          report_(report),
+          builder_(program_),
+          evaluator_(program_),
+          counters_(find_counters(builder_)) {
         for (std::uint32_t index = 0; index < program_.nodes.size(); ++index)
             dependences_.push_back(dependence_of({index}));
     }
@@ -76,9 +83,19 @@ class CountTabulation {
     }
 
     bool is_count(ir::NodeId id) const {
+        if (is_counter(id)) return true;
         const ir::Properties& properties = builder_.properties(id);
         return program_[id].type == ir::Scalar::Int && !properties.may_fault && properties.range &&
                properties.range->upper - properties.range->lower < largest_range;
+    }
+    bool is_counter(ir::NodeId id) const {
+        const auto* load = std::get_if<ir::Load>(&program_[id].form);
+        return load && counters_.contains(load->buffer);
+    }
+    // For certain, or, of a counter, as a rule.
+    Range range_of(ir::NodeId count) const {
+        if (!is_counter(count)) return *builder_.properties(count).range;
+        return counters_.at(std::get<ir::Load>(program_[count].form).buffer);
     }
 
     // All that it depends on is bound outside of it.
@@ -105,10 +122,12 @@ class CountTabulation {
     }
 
     std::optional<ir::NodeId> looked_up(ir::NodeId id) {
+        if (is_tested_already(id)) return id;
         const auto [only_count, count, cost] = dependence_on_operands(id);
-        const bool is_candidate = only_count && count && cost >= worth_a_count_table &&
-                                  program_[id].type != ir::Scalar::Bool;
-        if (!is_candidate || is_bound_inside(*count, id)) return std::nullopt;
+        if (!only_count || !count || program_[id].type == ir::Scalar::Bool) return std::nullopt;
+        const bool is_tested = is_counter(*count);
+        const bool is_worth_it = cost >= (is_tested ? worth_a_tested_table : worth_a_count_table);
+        if (!is_worth_it || is_bound_inside(*count, id)) return std::nullopt;
         const std::vector<ir::NodeId> cases = cases_of(id, *count);
         const std::vector<ir::VariableId> variables = variables_of(cases);
         const double elements = static_cast<double>(cases.size()) * objects_of(variables);
@@ -117,6 +136,7 @@ class CountTabulation {
         if (!values) return std::nullopt;
 
         ++report_["expressions of a count made tables"];
+        if (is_tested) return tested(id, *count, std::move(*values), variables);
         const Rows rows{.cases = cases.size(),
                         .values = std::move(*values),
                         .reached = reached_cases(*count, cases.size(), variables)};
@@ -128,9 +148,49 @@ class CountTabulation {
         return builder_.load(table, std::move(indices));
     }
 
+    bool is_tested_already(ir::NodeId id) const {
+        const auto* select = std::get_if<ir::Select>(&program_[id].form);
+        return select && select->evaluated == ir::Evaluated::MostlyFirst;
+    }
+    // Looks it up, or computes it for a counter that the table does not have. The counter chooses a
+    // row, which is the same for all objects.
+    ir::NodeId tested(ir::NodeId id, ir::NodeId counter, std::vector<ir::Value> values,
+                      const std::vector<ir::VariableId>& variables) {
+        const Range range = range_of(counter);
+        const ir::NodeId least = integer(range.lower), most = integer(range.upper);
+        std::vector<std::int64_t> shape{static_cast<std::int64_t>(range.upper - range.lower) + 1};
+        for (ir::VariableId variable : variables) shape.push_back(program_[variable].size);
+        ir::Buffer table{.name = name_ + "-by-" + name_of(counter),
+                         .storage = ir::Storage::Constant,
+                         .scalar = program_[id].type,
+                         .shape = std::move(shape),
+                         .values = by_case(std::move(values), range),
+                         .span = span_};
+        const ir::NodeId known = builder_.apply(
+            Operator::Maximum, {builder_.apply(Operator::Minimum, {counter, most}), least});
+        std::vector<ir::NodeId> indices{builder_.apply(Operator::Subtract, {known, least})};
+        for (const ir::NodeId index : indices_of(variables)) indices.push_back(index);
+        const ir::NodeId is_known =
+            builder_.apply(Operator::And, {builder_.apply(Operator::GreaterEqual, {counter, least}),
+                                           builder_.apply(Operator::LessEqual, {counter, most})});
+        const ir::NodeId looked_up =
+            builder_.load(builder_.tables().constant(std::move(table)), std::move(indices));
+        return builder_.select(is_known, looked_up, id, ir::Evaluated::MostlyFirst);
+    }
+    // From rows of objects to rows of cases.
+    static std::vector<ir::Value> by_case(std::vector<ir::Value> values, const Range& range) {
+        const auto cases = static_cast<std::size_t>(range.upper - range.lower) + 1;
+        const std::size_t objects = values.size() / cases;
+        std::vector<ir::Value> transposed(values.size());
+        for (std::size_t object = 0; object < objects; ++object)
+            for (std::size_t k = 0; k < cases; ++k)
+                transposed[k * objects + object] = values[object * cases + k];
+        return transposed;
+    }
+
     // The expression for each value of the count.
     std::vector<ir::NodeId> cases_of(ir::NodeId id, ir::NodeId count) {
-        const Range range = *builder_.properties(count).range;
+        const Range range = range_of(count);
         std::vector<ir::NodeId> cases;
         for (double value = range.lower; value <= range.upper; ++value) {
             std::map<ir::NodeId, ir::NodeId> known = {{count, integer(value)}};
@@ -321,6 +381,7 @@ class CountTabulation {
     Report& report_;
     ir::Builder builder_;
     ir::Evaluator evaluator_;
+    std::map<ir::BufferId, Range> counters_;
     std::vector<Dependence> dependences_;  // by NodeId::index
     std::string name_;                     // of what is computed
     Span span_;

@@ -2,11 +2,15 @@
 //
 //     before:  for l in location
 //                  next.at[l] = exists[k in location](move[k, l] && state.at[k] && ROAD[k, l])
-//     after:   fill scratch.at-any over true[k in location](state.at[k])
+//     after:   for l in location
+//                  next.at[l] = false
+//              for true state.at[k]
 //                  for entry in ROAD-rows[k] .. ROAD-rows[k + 1]
-//                      scratch.at-any[ROAD-l[entry]] ||= move[k, ROAD-l[entry]]
-//              for l in location
-//                  next.at[l] = scratch.at-any[l]
+//                      next.at[ROAD-l[entry]] = true where move[k, ROAD-l[entry]]
+//
+// A table that keeps its elements, or a constant, but where such conditions choose a value is
+// marked in place; another aggregation gets a table of its own. What the visits of one table read
+// is known before the step, so all are made together.
 //
 // Few are those of which the initial state has few, as the place of a vehicle: another state has
 // the same values and takes longer. It is done where the rest reads a table so large that loops

@@ -32,7 +32,8 @@ bool ObjectLanes::can_evaluate(ir::NodeId id) const {
     if (is_element_ && is_element_(id)) return true;
     return match(
         program_[id].form, [](const ir::Constant&) { return true; },
-        [](const ir::Local&) { return true; }, [](const ir::Bits&) { return true; },
+        [](const ir::Local&) { return true; },
+        [](const ir::Bits& bits) { return bits.indices.empty(); },
         [&](const ir::Load& load) { return can_index(load.buffer, load.indices); },
         [&](const ir::Element& element) { return is_at_own_place(element); },
         [&](const ir::Convert& convert) { return can_evaluate(convert.operand); },

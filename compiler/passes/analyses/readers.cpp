@@ -46,18 +46,25 @@ class ReaderCounting {
                     for (ir::NodeId index : store.indices) visit(index, times, read);
                     visit(store.value, times, read);
                 },
+                [&](const ir::Spread& spread) {
+                    for (ir::NodeId index : spread.indices) visit(index, times, read);
+                    visit(spread.bits, times, read);
+                    readers_[spread.target.index].functions = true;
+                },
                 [&](const ir::Loop& loop) {
                     variables_.insert(loop.variable);
                     visit(loop.body, times * size(loop.variable), read);
                 },
-                [&](const ir::Scatter& scatter) {
-                    variables_.insert(scatter.visited);
-                    variables_.insert(scatter.entry);
-                    const double entries = size(scatter.entry);
-                    for (ir::NodeId index : scatter.indices) visit(index, entries, read);
-                    visit(scatter.condition, size(scatter.visited), read);
-                    visit(scatter.value, entries, read);
-                    readers_[scatter.target.index].functions = true;
+                [&](const ir::Visit& few) {
+                    variables_.insert(few.visited);
+                    if (few.entries) variables_.insert(few.entries->variable);
+                    visit(few.condition, size(few.visited), read);
+                    const double marks = size(few.entries ? few.entries->variable : few.visited);
+                    for (const ir::Mark& mark : few.marks) {
+                        for (ir::NodeId index : mark.indices) visit(index, marks, read);
+                        visit(mark.condition, marks, read);
+                        readers_[mark.target.index].functions = true;
+                    }
                 },
                 [&](const ir::Call& call) {
                     for (ir::NodeId operand : ir::operands_of(call)) visit(operand, times, read);

@@ -43,7 +43,7 @@ class Ranges {
         });
         for (const auto& [id, range] : stored) {
             ir::Buffer& buffer = program_.buffers[id.index];
-            if (buffer.scalar != ir::Scalar::Real || !buffer.is_computed_in_step() || !range)
+            if (buffer.scalar == ir::Scalar::Bool || !buffer.is_computed_in_step() || !range)
                 continue;
             if (!buffer.range || !is_finite(*buffer.range)) newly_finite_ += is_finite(*range);
             buffer.range = range;

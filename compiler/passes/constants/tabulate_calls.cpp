@@ -152,8 +152,9 @@ class CallTabulation {
                 for (const ir::Statement& each : loop.body) cost += cost_of(each);
                 return static_cast<double>(program_[loop.variable].size) * cost;
             },
-            [](const ir::Scatter&) { return 0.0; },  // a later pass makes them
-            [&](const ir::Call& call) {              // of a matrix
+            [](const ir::Spread&) { return 0.0; },  // later passes make them
+            [](const ir::Visit&) { return 0.0; },
+            [&](const ir::Call& call) {  // of a matrix
                 return std::pow(static_cast<double>(program_[call.inputs.front().buffer].count()),
                                 1.5);
             });

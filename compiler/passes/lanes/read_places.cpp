@@ -189,10 +189,14 @@ class PlaceReading {
         if (most > 1 && 2 * all < most * std::ssize(*begins)) return {};
         for (std::int64_t k = 0; k < most && most <= most_terms; ++k) {
             Values numbers, there;
+            // An object without the entry reads that of the object before: equal places are read
+            // fast.
+            std::int64_t last = 0;
             for (std::size_t i = 0; i < begins->size(); ++i) {
                 const std::int64_t number = int_of((*begins)[i]) + k;
                 const bool is_there = number < int_of((*ends)[i]);
-                numbers.emplace_back(is_there ? number : 0);
+                if (is_there) last = number;
+                numbers.emplace_back(last);
                 there.emplace_back(is_there);
             }
             entries.push_back({table("entries", ir::Scalar::Int, std::move(numbers)),

@@ -76,11 +76,15 @@ class Pruning {
             prune(loop->body);
             return !loop->body.empty();
         }
+        if (auto* visit = std::get_if<ir::Visit>(&statement.form))
+            std::erase_if(visit->marks,
+                          [&](const ir::Mark& mark) { return !is_needed_[mark.target.index]; });
         const bool is_needed = match(
             statement.form, [&](const ir::Let& let) { return bool{is_named_[let.local.index]}; },
             [&](const ir::Store& store) { return bool{is_needed_[store.target.index]}; },
+            [&](const ir::Spread& spread) { return bool{is_needed_[spread.target.index]}; },
             [](const ir::Loop&) { return true; },
-            [&](const ir::Scatter& scatter) { return bool{is_needed_[scatter.target.index]}; },
+            [](const ir::Visit& visit) { return !visit.marks.empty(); },
             [&](const ir::Call& call) {
                 return is_needed_[call.output.buffer.index] || ir::is_draw(call.callee);
             });
@@ -89,8 +93,8 @@ class Pruning {
             roots, [&](ir::NodeId root) { return properties_[root.index].may_fault; });
         if (!is_needed && !may_fault) return false;
         for (const ir::NodeId root : roots) reach(root);
-        if (const auto* scatter = std::get_if<ir::Scatter>(&statement.form))
-            is_needed_[scatter->rows.index] = true;
+        if (const auto* visit = std::get_if<ir::Visit>(&statement.form); visit && visit->entries)
+            is_needed_[visit->entries->rows.index] = true;
         if (const auto* call = std::get_if<ir::Call>(&statement.form)) {
             for (const ir::TableView& input : call->inputs) is_needed_[input.buffer.index] = true;
         }
@@ -133,8 +137,13 @@ std::vector<bool> used_buffers(const ir::Program& program) {
     }
     for (const ir::Block* block : ir::blocks_of(program)) {
         for (const ir::BufferId written : ir::written_buffers(*block)) used[written.index] = true;
-        ir::for_each_statement<ir::Scatter>(
-            *block, [&](const ir::Scatter& scatter) { used[scatter.rows.index] = true; });
+        ir::for_each_statement<ir::Loop>(*block, [&](const ir::Loop& loop) {
+            if (loop.affected)
+                used[loop.affected->rows.index] = used[loop.affected->objects.index] = true;
+        });
+        ir::for_each_statement<ir::Visit>(*block, [&](const ir::Visit& visit) {
+            if (visit.entries) used[visit.entries->rows.index] = true;
+        });
         ir::for_each_statement<ir::Call>(*block, [&](const ir::Call& call) {
             for (const ir::TableView& input : call.inputs) used[input.buffer.index] = true;
         });

@@ -72,11 +72,15 @@ class DefinitionSharing {
                     for (ir::NodeId index : store.indices) use_root(index);
                     use_root(store.value);
                 },
+                [&](const ir::Spread& spread) {
+                    for (ir::NodeId index : spread.indices) use_root(index);
+                    use_root(spread.bits);
+                },
                 [&](const ir::Loop& loop) {
                     visit(loop.body, user,
                           times * static_cast<double>(program_[loop.variable].size));
                 },
-                [](const ir::Scatter&) {},  // reads what few need
+                [](const ir::Visit&) {},  // reads what few need
                 [&](const ir::Call& call) {
                     for (ir::NodeId operand : ir::operands_of(call)) use_root(operand);
                 });

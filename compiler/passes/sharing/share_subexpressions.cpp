@@ -90,7 +90,7 @@ class Sharing {
     ir::Block lets_before(ir::Block& single) {
         Uses uses;
         const bool is_loop = std::holds_alternative<ir::Loop>(single.front().form) ||
-                             std::holds_alternative<ir::Scatter>(single.front().form);
+                             std::holds_alternative<ir::Visit>(single.front().form);
         const double repetitions = repetitions_of(single.front());
         for (ir::NodeId root : ir::roots_of(single)) use(uses, root, is_loop, repetitions);
         return replace_shared(uses, ir::written_buffers(single),

@@ -198,6 +198,20 @@ struct Lanes {
     }
 };
 
+// Part i of several equal ones of all lanes.
+template <class Part, class T, int n>
+RDDL_INLINE Part part_of(const Lanes<T, n>& all, std::size_t i) {
+    Part part;
+    for (std::size_t p = 0; p < Part::part_count; ++p)
+        part.part[p] = all.part[i * Part::part_count + p];
+    return part;
+}
+template <class T, int n, int some>
+RDDL_INLINE void set_part(Lanes<T, n>& all, std::size_t i, const Lanes<T, some>& part) {
+    constexpr std::size_t count = Lanes<T, some>::part_count;
+    for (std::size_t p = 0; p < count; ++p) all.part[i * count + p] = part.part[p];
+}
+
 // ----------------------------------------------------------------------------- the lane type
 
 template <int n, class R = double>

@@ -9,6 +9,7 @@
 #include <rddl/lanes/simd.hpp>
 #include <rddl/lanes/simd_bytes.hpp>
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <type_traits>
@@ -32,6 +33,7 @@ struct InRegister<Mask<n>> {
 
 template <class T>
 struct RegisterOf {
+    static constexpr std::size_t count = simd::register_bytes / sizeof(T);
     typedef T type __attribute__((vector_size(simd::register_bytes)));
 };
 
@@ -164,6 +166,37 @@ RDDL_INLINE ManyBools<Bool, n> spread_many(const bool* from) {
 
 namespace many_bools {
 
+#ifdef RDDL_SIMD_AVX512
+// Masks of 16 bits, of a table of at most 128; the first `count` of the register.
+template <std::int64_t size, int count, class Place>
+RDDL_INLINE __m512i gathered_pairs(const void* table, const Place* from) {
+    constexpr std::uint32_t all = ~std::uint32_t{0}, there = all >> (32 - count);
+    __m512i places;
+    if constexpr (sizeof(Place) == 1)
+        places = _mm512_maskz_cvtepu8_epi16(all, _mm256_maskz_loadu_epi8(there, from));
+    else
+        places = _mm512_maskz_loadu_epi16(there, from);
+    const auto part = [&](int first) RDDL_INLINE_LAMBDA {
+        const int rest = static_cast<int>(size) - first;
+        return simd::load_many_parts(static_cast<const char*>(table) + 2 * first,
+                                     rest < 32 ? 2 * rest : 64);
+    };
+    const auto chosen = [&]<int first, int rest>() RDDL_INLINE_LAMBDA {
+        if constexpr (rest <= 32)
+            return _mm512_maskz_permutexvar_epi16(all, places, part(first));
+        else
+            return _mm512_maskz_permutex2var_epi16(all, part(first), places, part(first + 32));
+    };
+    const __m512i in_first = chosen.template operator()<0, size>();
+    if constexpr (size <= 64)
+        return in_first;
+    else
+        return _mm512_mask_mov_epi16(in_first,
+                                     _mm512_test_epi16_mask(places, _mm512_set1_epi16(64)),
+                                     chosen.template operator()<64, size - 64>());
+}
+#endif
+
 template <class Vector, class Bool, class Place, std::size_t... i>
 RDDL_INLINE Vector chosen(const Bool* table, const Place* places, std::size_t count,
                           std::index_sequence<i...>) {
@@ -175,7 +208,90 @@ RDDL_INLINE Vector chosen(const Bool* table, const Place* places, std::size_t co
     return Vector{element(places[i < count ? i : 0])...};
 }
 
+// The masks of `count` objects from a table of `size`, by places of any kind.
+template <class Vector, std::int64_t size, int count, class Bool, class Place>
+RDDL_INLINE Vector gathered(const Bool* table, const Place* places) {
+#ifdef RDDL_SIMD_AVX512
+    if constexpr (sizeof(Bool) == 2 && sizeof(Place) <= 2 && size <= 128) {
+        return simd::reinterpret<Vector>(gathered_pairs<size, count>(table, places));
+    }
+#endif
+    constexpr auto objects =
+        std::make_index_sequence<RegisterOf<typename InRegister<Bool>::Element>::count>();
+    return chosen<Vector>(table, places, count, objects);
+}
+
 }  // namespace many_bools
+
+// The places of as many objects as a register holds, where they are equal or follow each other.
+struct Line {
+    enum class Form : std::uint8_t { Other, Equal, Consecutive };
+    Form form;
+    std::int32_t first;  // of the places
+};
+
+namespace many_bools {
+
+// Element i of nested arrays, in row-major order.
+template <class T>
+constexpr std::int64_t element_of(const T& number, std::size_t) {
+    return static_cast<std::int64_t>(number);
+}
+template <class T>
+inline constexpr std::size_t count_in = 1;
+template <class T, std::size_t n>
+inline constexpr std::size_t count_in<std::array<T, n>> = n* count_in<T>;
+template <class T, std::size_t n>
+constexpr std::int64_t element_of(const std::array<T, n>& table, std::size_t i) {
+    return element_of(table[i / count_in<T>], i % count_in<T>);
+}
+
+template <class Places>
+constexpr Line line_of(const Places& places, std::size_t begin, std::size_t end) {
+    const std::int64_t first = element_of(places, begin);
+    bool are_equal = true, are_consecutive = true;
+    for (std::size_t i = begin; i < end; ++i) {
+        const std::int64_t place = element_of(places, i);
+        are_equal &= place == first;
+        are_consecutive &= place == first + static_cast<std::int64_t>(i - begin);
+    }
+    const Line::Form form = are_equal         ? Line::Form::Equal
+                            : are_consecutive ? Line::Form::Consecutive
+                                              : Line::Form::Other;
+    return {form, static_cast<std::int32_t>(first)};
+}
+
+}  // namespace many_bools
+
+// Compilers take time to find the lines of more.
+inline constexpr std::int64_t most_places_in_lines = 4096;
+
+// The lines of a table of places, for registers of `width` objects.
+template <const auto& places, int width>
+inline constexpr auto lines_of_places = [] {
+    constexpr std::size_t count = many_bools::count_in<std::remove_cvref_t<decltype(places)>>;
+    std::array<Line, (count + width - 1) / width> lines{};
+    for (std::size_t k = 0; k < lines.size(); ++k) {
+        const std::size_t end = (k + 1) * width;
+        lines[k] = many_bools::line_of(places, k * width, end < count ? end : count);
+    }
+    return lines;
+}();
+
+// The same of packs, whose places may be lines.
+template <int n, std::int64_t size, int lanes, class Place>
+RDDL_INLINE ManyBools<Mask<lanes>, n> choose_many(const Mask<lanes>* table, const Place* places,
+                                                  const Line* lines) {
+    using Many = ManyBools<Mask<lanes>, n>;
+    using Vector = typename Many::Vector;
+    return Many::of_parts([&]<int p, int count>() RDDL_INLINE_LAMBDA {
+        constexpr int bytes = count * static_cast<int>(sizeof(Mask<lanes>));
+        const Mask<lanes>* const first = table + lines[p].first;
+        if (lines[p].form == Line::Form::Consecutive) return simd::load_bytes<Vector, bytes>(first);
+        if (lines[p].form == Line::Form::Equal) return first->bits - Vector{};
+        return many_bools::gathered<Vector, size, count>(table, places + p * Many::part_width);
+    });
+}
 
 // The elements of a table of `size` that have these places.
 template <int n, std::int64_t size, class Bool, class Place>

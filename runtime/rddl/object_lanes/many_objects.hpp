@@ -8,7 +8,10 @@
 #include <rddl/object_lanes/many_bools.hpp>
 #include <rddl/object_lanes/objects.hpp>
 #include <rddl/random/random.hpp>
+#include <rddl/values/bits.hpp>
+#include <rddl/values/tables.hpp>
 
+#include <algorithm>
 #include <array>
 #include <concepts>
 #include <cstddef>
@@ -68,11 +71,19 @@ RDDL_INLINE auto at(const Table& table, const ManyObjects<n, L>& objects) {
     else
         return load_many<n>(first);
 }
-template <class Table, int n, class L, class Places>
-RDDL_INLINE auto at_places(const Table& table, const ManyObjects<n, L>& objects,
-                           const Places& places) {
-    return choose_many<n, detail::Nested<Table>::count>(
-        &detail::first_part<0>(table), &detail::first_part<0>(places) + objects.first);
+template <const auto& places, class Table, int n, class L>
+RDDL_INLINE auto at_places(const Table& table, const ManyObjects<n, L>& objects) {
+    using Many = ManyBools<typename L::Bool, n>;
+    const auto* const elements = &detail::first_part<0>(table);
+    const auto* const first = &detail::first_part<0>(places) + objects.first;
+    constexpr bool are_few =
+        detail::Nested<std::remove_cvref_t<decltype(places)>>::count <= most_places_in_lines;
+    if constexpr (L::width == 1 || !are_few)
+        return choose_many<n, detail::Nested<Table>::count>(elements, first);
+    else
+        return choose_many<n, detail::Nested<Table>::count>(
+            elements, first,
+            lines_of_places<places, Many::part_width>.data() + objects.first / Many::part_width);
 }
 template <class Table, int n, class L>
 RDDL_INLINE auto elements(Table& table, const ManyObjects<n, L>& objects) {
@@ -256,6 +267,36 @@ RDDL_INLINE void for_many_objects(Context<L>& context, Body&& body) {
         for (Index first = 0; first < count - rest; first += at_once)
             detail::for_these_objects<at_once>(context, first, body);
         if constexpr (rest > 0) detail::for_these_objects<rest>(context, count - rest, body);
+    }
+}
+
+// The same where the bools of `target` are false except for objects that read a true one of `few`:
+// element i is read by objects[rows[i]] and those behind it, before objects[rows[i + 1]]. One
+// environment computes those alone, unless many are true.
+template <Index count, int lanes, class R, class Few, class Table, class Body>
+RDDL_INLINE void for_affected_objects(Context<Pack<lanes, R>>& context, const Few&, const auto&,
+                                      const auto&, Table&, Body&& body) {
+    for_many_objects<count>(context, body);
+}
+template <Index count, class R, class Few, class Table, class Body>
+RDDL_INLINE void for_affected_objects(Context<ScalarOf<R>>& context, const Few& few,
+                                      const auto& rows, const auto& objects, Table& target,
+                                      Body&& body) {
+    constexpr int most_true = static_cast<int>(count / 16);
+    const auto words = words_of_bools<static_cast<std::size_t>(count)>(detail::first_element(few));
+    int true_count = 0;
+    for (const std::uint64_t bits : words) true_count += __builtin_popcountll(bits);
+    if (true_count > most_true) return for_many_objects<count>(context, body);
+    assign(target, false);
+    Index first = 0;
+    for (std::uint64_t bits : words) {
+        for (; bits != 0; bits &= bits - 1) {
+            const Index i = first + __builtin_ctzll(bits);
+            for (Index entry = rows[static_cast<std::size_t>(i)];
+                 entry < rows[static_cast<std::size_t>(i) + 1]; ++entry)
+                body(context, OneObject{objects[static_cast<std::size_t>(entry)]});
+        }
+        first += 64;
     }
 }
 

@@ -192,13 +192,12 @@ RDDL_INLINE auto at_own(const Table& table, const SomeObjects<n>& objects,
 }
 
 // The elements of a table of bools at places that each object has in another table.
-template <class Table, class Places>
-RDDL_INLINE const auto& at_places(const Table& table, OneObject object, const Places& places) {
+template <const auto& places, class Table>
+RDDL_INLINE const auto& at_places(const Table& table, OneObject object) {
     return (&detail::first_part<0>(table))[(&detail::first_part<0>(places))[object.place]];
 }
-template <class Table, int n, class Places>
-RDDL_INLINE Mask<n> at_places(const Table& table, const SomeObjects<n>& objects,
-                              const Places& places) {
+template <const auto& places, class Table, int n>
+RDDL_INLINE Mask<n> at_places(const Table& table, const SomeObjects<n>& objects) {
     constexpr std::int64_t size = detail::Nested<Table>::count;
     return Mask<n>::of_bits(simd::bits_of_chosen_bytes<size>(
         &detail::first_part<0>(table), &detail::first_part<0>(places) + objects.first,

@@ -18,12 +18,24 @@
 
 namespace rddl {
 
+// Stream keys, each half in the lower half of a word.
+template <class Word>
+struct StreamKeys {
+    Word low, high;
+};
+template <class Word>
+RDDL_INLINE StreamKeys<Word> stream_keys(const Word& seed, const Word& environment,
+                                         const Word& episode) {
+    const philox::Block<Word> block = philox::generate<philox::key_rounds>(
+        philox::Block<Word>{environment, environment >> 32, episode, episode >> 32},
+        philox::Key<Word>{seed, seed >> 32});
+    const Word lower_half{std::uint64_t{0xFFFFFFFF}};
+    return {block[0] & lower_half, block[1] & lower_half};
+}
 constexpr StreamKey stream_key(std::uint64_t seed, std::uint64_t environment,
                                std::uint64_t episode) {
-    const philox::Block<std::uint64_t> block = philox::generate<philox::key_rounds>(
-        philox::Block<std::uint64_t>{environment, environment >> 32, episode, episode >> 32},
-        philox::Key<std::uint64_t>{seed, seed >> 32});
-    return {static_cast<std::uint32_t>(block[0]), static_cast<std::uint32_t>(block[1])};
+    const auto keys = stream_keys(seed, environment, episode);
+    return {static_cast<std::uint32_t>(keys.low), static_cast<std::uint32_t>(keys.high)};
 }
 
 // The upper 52 bits of a number of 64: a multiple of 2^-52 in [0, 1). Floats take the upper 23, so
@@ -88,33 +100,50 @@ RDDL_INLINE auto first_numbers(Word step, std::uint32_t series, Word block_numbe
 template <int n, class R>
 inline constexpr std::uint32_t numbers_at_once = n / simd::lanes_of<std::uint64_t> <= 2 ? 4 : 2;
 
+// Calls use(schedule, i) for each part of the lanes whose numbers are made in registers alone.
+template <int n, class R, class Use>
+RDDL_INLINE void for_each_schedule(const Context<Pack<n, R>>& context, Use&& use) {
+    if constexpr (Context<Pack<n, R>>::keeps_schedule) {
+        use(context.schedule, 0);
+    } else {
+        constexpr int together = 16;
+        using Some = Lanes<std::uint64_t, together>;
+        for (std::size_t i = 0; i < n / together; ++i) {
+            const philox::Key<Some> key{part_of<Some>(context.key_low, i),
+                                        part_of<Some>(context.key_high, i)};
+            use(philox::Schedule<philox::draw_rounds, Some>(part_of<Some>(context.step, i), key),
+                i);
+        }
+    }
+}
+
+// Numbers, not a place: what compilers pass through memory is read slowly.
 template <std::uint32_t count, int n, class R>
-[[gnu::noinline]] void refill(Context<Pack<n, R>>& context, Place place) {
-    using Block = philox::Block<Lanes<std::uint64_t, n>>;
+[[gnu::noinline]] void refill(Context<Pack<n, R>>& context, std::uint32_t series,
+                              std::uint32_t index) {
     if (!context.is_scheduled) {
-        context.schedule.begin(context.step, {context.key_low, context.key_high});
+        if constexpr (Context<Pack<n, R>>::keeps_schedule)
+            context.schedule.begin(context.step, {context.key_low, context.key_high});
         context.draws_medians = is_median_key(context.key_low, context.key_high);
         context.is_scheduled = true;
     }
-    auto& recent = context.recent[place.series % recent_series];
-    recent.series = place.series;
-    recent.first = place.index / count * count;
+    auto& recent = context.recent[series % recent_series];
+    recent.series = series;
+    recent.first = index / count * count;
     recent.count = count;
-    const auto store = [](const Block& words, Lanes<R, n>* numbers) RDDL_INLINE_LAMBDA {
-        numbers[0] = unit_real<R>(words[0], words[1]);
-        numbers[1] = unit_real<R>(words[2], words[3]);
-    };
     const std::uint64_t third = recent.first / 2;
-    if constexpr (count == 2) {
-        Block words;
-        context.schedule.generate(place.series, third, words);
-        store(words, recent.numbers);
-    } else {
-        Block words, other_words;
-        context.schedule.generate(place.series, third, words, third + 1, other_words);
-        store(words, recent.numbers);
-        store(other_words, recent.numbers + 2);
-    }
+    for_each_schedule(
+        context, [&]<class Word>(const philox::Schedule<philox::draw_rounds, Word>& schedule,
+                                 std::size_t i) RDDL_INLINE_LAMBDA {
+            const auto store = [&](const philox::Block<Word>& words, Lanes<R, n>* numbers)
+                                   RDDL_INLINE_LAMBDA {
+                                       set_part(numbers[0], i, unit_real<R>(words[0], words[1]));
+                                       set_part(numbers[1], i, unit_real<R>(words[2], words[3]));
+                                   };
+            philox::Block<Word> words[count / 2];
+            schedule.generate(series, third, words);
+            for (std::size_t k = 0; k < count / 2; ++k) store(words[k], recent.numbers + 2 * k);
+        });
     if (any(context.draws_medians))
         for (std::uint32_t k = 0; k < count; ++k)
             recent.numbers[k] =
@@ -126,11 +155,31 @@ RDDL_INLINE Lanes<R, n> uniform_at(Context<Pack<n, R>>& context, Place place) {
     const auto& recent = context.recent[place.series % recent_series];
     if (recent.series != place.series || place.index - recent.first >= recent.count) {
         if (__builtin_constant_p(place.index))
-            refill<2>(context, place);  // most likely there is no other one
+            refill<2>(context, place.series, place.index);  // most likely there is no other one
         else
-            refill<numbers_at_once<n, R>>(context, place);
+            refill<numbers_at_once<n, R>>(context, place.series, place.index);
     }
     return recent.numbers[place.index - recent.first];
+}
+
+// The number of a draw that is made once in a step, where it is used.
+template <int n, class R, std::same_as<LonePlace> Lone>
+RDDL_INLINE Lanes<R, n> uniform_at(Context<Pack<n, R>>& context, Lone place) {
+    using Word = Lanes<std::uint64_t, n>;
+    const auto numbers =
+        first_numbers<R, Word>(context.step, place.series, Word{std::uint64_t{place.index / 2}},
+                               {context.key_low, context.key_high});
+    const auto& random = place.index % 2 == 0 ? numbers.even : numbers.odd;
+    const Mask<n> are_medians = is_median_key(context.key_low, context.key_high);
+    if (any(are_medians)) return select(are_medians, Lanes<R, n>{R(median_number)}, random);
+    return random;
+}
+template <class R, std::same_as<LonePlace> Lone>
+RDDL_INLINE R uniform_at(Context<ScalarOf<R>>& context, Lone place) {
+    if (context.key == median_key) return R(median_number);
+    const auto numbers = first_numbers<R, std::uint64_t>(
+        context.step, place.series, place.index / 2, {context.key.low, context.key.high});
+    return place.index % 2 == 0 ? numbers.even : numbers.odd;
 }
 
 // Whether a uniform number is below p, in the lanes of a mask. Where few lanes need their numbers,
@@ -220,9 +269,9 @@ RDDL_INLINE R uniform_at(Context<ScalarOf<R>>& context, Place place) {
 
 // A draw of a standard distribution. A single environment also draws the neighbours' numbers, in
 // registers, unless the compiler sees that the draw has no neighbours.
-template <class Standard, class L>
-RDDL_INLINE typename L::Real standard_at(Context<L>& context, Place place) {
-    if constexpr (L::width == 1)
+template <class Standard, class L, class SomePlace>
+RDDL_INLINE typename L::Real standard_at(Context<L>& context, SomePlace place) {
+    if constexpr (L::width == 1 && !std::is_same_v<SomePlace, LonePlace>)
         if (!__builtin_constant_p(place.index)) return recent_number<Standard>(context, place);
     return Standard::of(uniform_at(context, place));
 }

@@ -67,6 +67,12 @@ namespace detail {
 // over, not unrolled. So the compiled code does not grow with the fluents.
 inline constexpr std::size_t most_apart = 16;
 
+// Actions of packs are only read: many values at once are read faster.
+template <class L>
+constexpr bool have_own_columns(std::size_t fluents, rddl_role role) {
+    return fluents <= most_apart && (L::width == 1 || role != RDDL_ACTION);
+}
+
 constexpr std::size_t fluent_count(const rddl_problem& problem, rddl_role role) {
     std::size_t count = 0;
     for (std::int32_t f = 0; f < problem.fluent_count; ++f)
@@ -85,9 +91,9 @@ constexpr bool are_neighbours(const rddl_fluent& first, const rddl_fluent& secon
 }
 
 // Calls body(first, last) with the fluents of each column.
-template <class Body>
+template <class L, class Body>
 constexpr void for_each_group(const rddl_problem& problem, rddl_role role, Body&& body) {
-    const bool are_apart = fluent_count(problem, role) <= most_apart;
+    const bool are_apart = have_own_columns<L>(fluent_count(problem, role), role);
     // Numbers, not pointers: with its sanitizers, g++ compares no pointer with null at compile
     // time.
     constexpr std::int32_t none = -1;
@@ -105,9 +111,10 @@ constexpr void for_each_group(const rddl_problem& problem, rddl_role role, Body&
     if (last != none) body(problem.fluents[first], problem.fluents[last]);
 }
 
+template <class L>
 constexpr std::size_t column_count(const rddl_problem& problem, rddl_role role) {
     std::size_t count = 0;
-    for_each_group(problem, role, [&](const rddl_fluent&, const rddl_fluent&) { ++count; });
+    for_each_group<L>(problem, role, [&](const rddl_fluent&, const rddl_fluent&) { ++count; });
     return count;
 }
 
@@ -118,7 +125,7 @@ constexpr void lay_out(ColumnTable<List>& columns, const rddl_problem& problem, 
         return (a + unit - 1) / unit * unit;
     };
     std::size_t place = 0;
-    for_each_group(problem, role, [&](const rddl_fluent& fluent, const rddl_fluent& last) {
+    for_each_group<L>(problem, role, [&](const rddl_fluent& fluent, const rddl_fluent& last) {
         const bool is_object = fluent.range_type >= 0;
         const std::int64_t limit = is_object ? problem.types[fluent.range_type].object_count : 0;
         const std::int64_t size = fluent.scalar == RDDL_BOOL ? 1 : 8;
@@ -142,14 +149,14 @@ constexpr void lay_out(ColumnTable<List>& columns, const rddl_problem& problem, 
 // The fluents of a role, laid out in a block as C++ lays out the emitted struct.
 template <class L>
 Columns columns_of(const rddl_problem& problem, rddl_role role, std::int64_t row_size) {
-    Columns columns{.list = std::vector<Column>(detail::column_count(problem, role)),
+    Columns columns{.list = std::vector<Column>(detail::column_count<L>(problem, role)),
                     .row_size = row_size};
     detail::lay_out<L>(columns, problem, role);
     return columns;
 }
 template <class L, const rddl_problem& problem, rddl_role role>
 constexpr auto known_columns(std::int64_t row_size) {
-    KnownColumns<detail::column_count(problem, role)> columns{.row_size = row_size};
+    KnownColumns<detail::column_count<L>(problem, role)> columns{.row_size = row_size};
     detail::lay_out<L>(columns, problem, role);
     return columns;
 }
@@ -171,6 +178,15 @@ constexpr bool has_tables(const rddl_problem& problem, rddl_role role) {
     for (std::int32_t f = 0; f < problem.fluent_count; ++f)
         has |= problem.fluents[f].role == role && problem.fluents[f].count > most_in_registers;
     return has;
+}
+
+// Whether states are made where they stay, and not copied there from registers.
+constexpr bool has_large_state(const rddl_problem& problem) {
+    constexpr std::int64_t most_copied = 8;
+    std::int64_t count = 0;
+    for (std::int32_t f = 0; f < problem.fluent_count; ++f)
+        if (problem.fluents[f].role == RDDL_STATE) count += problem.fluents[f].count;
+    return count > most_copied;
 }
 
 // Calls visit(column) for each; known ones are constants there, if they are few.
@@ -237,20 +253,27 @@ RDDL_INLINE T read_numbers(const std::byte* rows, std::int64_t row_size, int pre
     else
         return read_some_numbers<T>(rows, row_size, present);
 }
-// Reads as many columns as a register has lanes, of whole blocks.
+// Reads `count` columns, at most as many as a register has lanes, of whole blocks.
 template <class T>
-RDDL_INLINE void read_columns(const std::byte* rows, std::int64_t row_size, T* values) {
+RDDL_INLINE void read_columns(const std::byte* rows, std::int64_t row_size, std::int64_t count,
+                              T* values) {
     using Value =
         std::conditional_t<std::is_same_v<typename T::Element, float>, double, typename T::Element>;
     Lanes<Value, T::width> columns[simd::lanes];
     for (int p = 0; p < columns[0].part_count; ++p) {
         simd::Vector<Value> square[simd::lanes];
-        for (int i = 0; i < simd::lanes; ++i)
-            __builtin_memcpy(&square[i], rows + (p * simd::lanes + i) * row_size, sizeof square[i]);
+        for (int i = 0; i < simd::lanes; ++i) {
+            const std::byte* const row = rows + (p * simd::lanes + i) * row_size;
+            if (count == simd::lanes)
+                __builtin_memcpy(&square[i], row, sizeof square[i]);
+            else
+                square[i] =
+                    simd::load_some(reinterpret_cast<const Value*>(row), static_cast<int>(count));
+        }
         simd::transpose(square);
         for (int i = 0; i < simd::lanes; ++i) columns[i].part[p] = square[i];
     }
-    for (int i = 0; i < simd::lanes; ++i)
+    for (int i = 0; i < count; ++i)
         if constexpr (std::is_same_v<typename T::Element, float>)
             values[i] = to_float(columns[i]);
         else
@@ -270,6 +293,13 @@ RDDL_INLINE void write_numbers(const T& values, std::byte* rows, std::int64_t ro
             std::memcpy(rows + lane * row_size, &numbers[lane], sizeof numbers[lane]);
     }
 }
+
+// Fewer columns are gathered.
+#ifdef RDDL_SIMD_AVX512
+inline constexpr std::int64_t least_transposed = 2;
+#else
+inline constexpr std::int64_t least_transposed = simd::lanes;
+#endif
 
 template <class T>
 const T* values_in(const std::byte* block, const Column& column) {
@@ -336,7 +366,12 @@ RDDL_INLINE void read_records(Pack<n, R>, const ColumnTable<List>& columns, cons
         const std::byte* const first = rows + column.row;
         std::int64_t k = 0;
         for (; present == n && k + simd::lanes <= column.count; k += simd::lanes)
-            detail::read_columns(first + 8 * k, columns.row_size, values + k);
+            detail::read_columns(first + 8 * k, columns.row_size, simd::lanes, values + k);
+        const std::int64_t rest = column.count - k;
+        if (present == n && __builtin_constant_p(rest) && rest >= detail::least_transposed) {
+            detail::read_columns(first + 8 * k, columns.row_size, rest, values + k);
+            k += rest;
+        }
         for (; k < column.count; ++k)
             values[k] = detail::read_numbers<T>(first + 8 * k, columns.row_size, present);
     };

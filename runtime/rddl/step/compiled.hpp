@@ -86,6 +86,8 @@ struct Compiled {
                   std::is_trivially_copyable_v<Memory>);
 
     static constexpr bool has_state_tables = has_tables(problem, RDDL_STATE);
+    static constexpr bool has_large_states =
+        has_state_tables || (L::width > 1 && has_large_state(problem));
     static constexpr auto state_columns = known_columns<L, problem, RDDL_STATE>(problem.state_size);
     static constexpr auto action_columns =
         known_columns<L, problem, RDDL_ACTION>(problem.action_size);

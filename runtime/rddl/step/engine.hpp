@@ -103,6 +103,7 @@ concept TypedEngine = Engine<E> && requires {
     E::state_columns;
     E::action_columns;
     { E::has_state_tables } -> std::convertible_to<bool>;
+    { E::has_large_states } -> std::convertible_to<bool>;
     { E::shows_padding } -> std::convertible_to<bool>;
 };
 
@@ -114,7 +115,7 @@ concept SmallStateEngine = TypedEngine<E> && !E::has_state_tables && !E::shows_p
 // where it is copied.
 template <Engine E>
 constexpr bool makes_states_in_place() {
-    if constexpr (TypedEngine<E>) return E::has_state_tables;
+    if constexpr (TypedEngine<E>) return E::has_large_states;
     return true;
 }
 

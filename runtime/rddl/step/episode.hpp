@@ -218,10 +218,41 @@ typename L::Bool reset_some(const E& engine, const Columns&, typename L::Bool la
     return engine.terminal(made, context);
 }
 
-// Sets the keys of the episodes of these lanes of block `b`, which are present.
+// So many lanes get their keys together.
+inline constexpr int keys_at_once = 8;
+
+// Sets the keys of the episodes of the lanes from keys_at_once * `part` on, which are all present.
+template <int n, class R>
+void set_some_keys(const Blocks<Pack<n, R>>& blocks, std::int64_t b, std::size_t part) {
+    using Word = Lanes<std::uint64_t, keys_at_once>;
+    Episodes<Pack<n, R>>& episodes = blocks.episodes[b];
+    const auto* const streams = reinterpret_cast<const std::byte*>(
+        blocks.streams + b * n + static_cast<std::int64_t>(part) * keys_at_once);
+    const auto seed = Word::load_apart(streams + offsetof(Stream, seed), sizeof(Stream));
+    const auto identity = Word::load_apart(streams + offsetof(Stream, identity), sizeof(Stream));
+    const auto keys = stream_keys(seed, identity, part_of<Word>(words_of(episodes.number), part));
+    constexpr Stream medians = Stream::of_medians();
+    const auto are_medians = ints_of(seed) == ints_of(Word{medians.seed}) &&
+                             ints_of(identity) == ints_of(Word{medians.identity});
+    set_part(episodes.key_low, part,
+             select(are_medians, Word{std::uint64_t{median_key.low}}, keys.low));
+    set_part(episodes.key_high, part,
+             select(are_medians, Word{std::uint64_t{median_key.high}}, keys.high));
+}
+
+// Sets the keys of the episodes of these lanes of block `b`, which are present. Where episodes have
+// the same horizon, most of them start together.
 template <class L>
 void set_keys(const Blocks<L>& blocks, std::int64_t b, typename L::Bool lanes) {
     Episodes<L>& episodes = blocks.episodes[b];
+    if constexpr (L::width > 1) {
+        for (int first = 0; first < L::width; first += keys_at_once) {
+            const std::uint64_t some = ((std::uint64_t{1} << keys_at_once) - 1) << first;
+            if ((lanes.bits & some) != some) continue;
+            set_some_keys(blocks, b, static_cast<std::size_t>(first / keys_at_once));
+            lanes = L::Bool::of_bits(lanes.bits & ~some);
+        }
+    }
     for_each_lane(lanes, [&](int lane) {
         const auto number = static_cast<std::uint64_t>(get_lane(episodes.number, lane));
         const Stream& stream = blocks.streams[b * L::width + lane];

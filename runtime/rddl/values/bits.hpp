@@ -11,6 +11,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 
 namespace rddl {
 
@@ -18,11 +19,15 @@ namespace detail {
 
 // The first of the elements of nested arrays, which lie one after the other, and their number.
 template <class T>
-constexpr const T* first_element(const T& value) {
+constexpr T* first_element(T& value) {
     return &value;
 }
 template <class T, std::size_t n>
 constexpr auto first_element(const std::array<T, n>& table) {
+    return first_element(table[0]);
+}
+template <class T, std::size_t n>
+constexpr auto first_element(std::array<T, n>& table) {
     return first_element(table[0]);
 }
 template <class T>
@@ -40,6 +45,14 @@ template <int count, bool, int n>
 Lanes<std::int64_t, n> bits_of(const Mask<n>* bools) {
     return bits_in_lanes<count>(bools);
 }
+template <int count>
+RDDL_INLINE void store_bits(std::int64_t bits, bool* bools) {
+    simd::store_as_bytes<(count > 16 ? 64 : 16)>(static_cast<std::uint64_t>(bits), bools, count);
+}
+template <int count, int n>
+RDDL_INLINE void store_bits(const Lanes<std::int64_t, n>& bits, Mask<n>* bools) {
+    store_lanes<count>(bits, bools);
+}
 
 }  // namespace detail
 
@@ -50,6 +63,17 @@ auto bits(const Table& table) {
     constexpr Index count = std::min<Index>(detail::element_count<Table> - first, 64);
     return detail::bits_of<static_cast<int>(count), just_stored>(detail::first_element(table) +
                                                                  first);
+}
+// All elements, 64 in each word.
+template <std::size_t n>
+RDDL_INLINE std::array<std::uint64_t, (n + 63) / 64> words_of_bools(const bool* bools) {
+    return [bools]<std::size_t... word>(std::index_sequence<word...>) RDDL_INLINE_LAMBDA {
+        constexpr std::size_t rest = n % 64 == 0 ? 64 : n % 64;
+        return std::array<std::uint64_t, sizeof...(word)>{static_cast<std::uint64_t>(
+            detail::bits_of < word + 1 < sizeof...(word) ? 64 : static_cast<int>(rest),
+            true > (bools + 64 * word))...};
+    }
+    (std::make_index_sequence<(n + 63) / 64>());
 }
 // The bits of the caller's actions.
 template <Index first = 0, class Table>
@@ -99,6 +123,14 @@ requires SomePack<A, B> RDDL_INLINE auto bit_xor(const A& a, const B& b) {
     return Int(a) ^ Int(b);
 }
 
+// The bits of an int fill a row of a table of bools, the lowest one first.
+template <class Table, class Int>
+RDDL_INLINE void spread(Table& row, const Int& bits) {
+    constexpr Index count = detail::element_count<Table>;
+    static_assert(count <= 64);
+    detail::store_bits<static_cast<int>(count)>(bits, detail::first_element(row));
+}
+
 // How many bits are 1.
 constexpr std::int64_t count_ones(std::int64_t a) {
     return __builtin_popcountll(static_cast<std::uint64_t>(a));
@@ -106,6 +138,30 @@ constexpr std::int64_t count_ones(std::int64_t a) {
 template <int n>
 RDDL_INLINE Lanes<std::int64_t, n> count_ones(const Lanes<std::int64_t, n>& a) {
     return Lanes<std::int64_t, n>::each([](simd::Ints bits) { return simd::count_ones(bits); }, a);
+}
+
+// The bits that one mask at least has, of the masks in a row of a table that are chosen by bits:
+// bit i chooses element i. The row may differ between lanes.
+template <class Masks, class... Row>
+RDDL_INLINE std::int64_t union_of(const Masks& masks, std::int64_t bits, Row... row) {
+    std::int64_t all = 0;
+    for (auto left = static_cast<std::uint64_t>(bits); left != 0; left &= left - 1)
+        all |= at(masks, row..., Index{__builtin_ctzll(left)});
+    return all;
+}
+template <class Masks, int n, class... Row>
+RDDL_INLINE Lanes<std::int64_t, n> union_of(const Masks& masks, Lanes<std::int64_t, n> bits,
+                                            const Row&... row) {
+    using Int = Lanes<std::int64_t, n>;
+    Int all{0};
+    for (Mask<n> some = bits != 0; any(some); some = bits != 0) {
+        const Int others = bits & wrap_sub(bits, Int{1});
+        const Int place = count_ones(wrap_sub(bits ^ others, Int{1}));
+        const Int mask = at(masks, row..., select(some, place, Int{0}));
+        all = all | select(some, mask, Int{0});
+        bits = others;
+    }
+    return all;
 }
 
 }  // namespace rddl

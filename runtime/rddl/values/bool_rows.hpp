@@ -215,6 +215,7 @@ template <int n>
 RDDL_ALWAYS_INLINE void read_narrow_rows(const std::byte* rows, std::int64_t row_size,
                                          std::int64_t count, Mask<n>* masks) {
     const std::int64_t byte_count = (n - 1) * row_size + count;
+#pragma GCC unroll 16
     for (std::int64_t k = 0; k < count; ++k) {
         std::uint64_t column = 0;
         int lanes = 0;
@@ -281,6 +282,20 @@ Lanes<std::int64_t, n> bits_in_lanes(const Mask<n>* masks) {
         std::memcpy(&bits.part[parts * i], &rows, sizeof rows);
     }
     return ints_of(bits);
+}
+
+// The reverse: the lowest `count` <= 64 bits of each lane.
+template <int count, int n>
+void store_lanes(const Lanes<std::int64_t, n>& lanes, Mask<n>* masks) {
+    const Lanes<std::uint64_t, n> bits = words_of(lanes);
+    constexpr int parts = 8 / bits.part_width;
+    std::array<bit_matrix::BitColumns, n / 8> columns;
+    for (int i = 0; i < n / 8; ++i) {
+        bit_matrix::BitRows rows;
+        std::memcpy(&rows, &bits.part[parts * i], sizeof rows);
+        columns[static_cast<std::size_t>(i)] = bit_matrix::columns_of(rows);
+    }
+    bit_matrix::store_masks(columns, count, masks);
 }
 
 }  // namespace rddl::inline RDDL_SIMD_LEVEL

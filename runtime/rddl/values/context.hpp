@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cstdint>
+#include <type_traits>
 
 namespace rddl {
 
@@ -24,6 +25,11 @@ struct Place {
     constexpr Place(std::uint32_t its_site, Index index_in_scope, std::uint32_t its_series)
         : site(its_site), index(static_cast<std::uint32_t>(index_in_scope)), series(its_series) {}
     constexpr bool operator==(const Place&) const = default;
+};
+
+// The place of a draw that a step makes once: numbers are not made for its neighbours as well.
+struct LonePlace : Place {
+    using Place::Place;
 };
 
 // The key of an episode's random stream (random.hpp).
@@ -142,8 +148,12 @@ struct Context<Pack<n, R>> {
     };
     std::array<Recent, recent_series> recent;
 
-    // The schedule of all draws of the step; the first one makes it.
-    philox::Schedule<philox::draw_rounds, Word> schedule;
+    // The schedule of all draws of the step, where registers have room for that of all lanes; the
+    // first draw makes it.
+    struct NoSchedule {};
+    static constexpr bool keeps_schedule = n <= 16;
+    std::conditional_t<keeps_schedule, philox::Schedule<philox::draw_rounds, Word>, NoSchedule>
+        schedule;
     Mask<n> draws_medians;  // the lanes whose key is median_key
     bool is_scheduled = false;
 

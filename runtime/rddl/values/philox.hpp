@@ -93,15 +93,15 @@ class Schedule {
         for_each_later_key([&](const Key<Word>& key)
                                RDDL_INLINE_LAMBDA { do_round(words, to<Result>(key)); });
     }
-    // The blocks of two, made in turns since each round waits for the one before it.
-    template <class Third, class Result>
-    RDDL_INLINE void generate(std::uint64_t second, const Third& third, Block<Result>& words,
-                              const Third& other_third, Block<Result>& other_words) const {
-        do_two_rounds(second, third, words);
-        do_two_rounds(second, other_third, other_words);
+    // The blocks of neighbours, from `third` on, made in turns since each round waits for the one
+    // before it.
+    template <class Third, class Result, std::size_t count>
+    RDDL_INLINE void generate(std::uint64_t second, const Third& third,
+                              Block<Result> (&words)[count]) const {
+        for (std::size_t i = 0; i < count; ++i)
+            do_two_rounds(second, third + Third{std::uint64_t{i}}, words[i]);
         for_each_later_key([&](const Key<Word>& key) RDDL_INLINE_LAMBDA {
-            do_round(words, to<Result>(key));
-            do_round(other_words, to<Result>(key));
+            for (Block<Result>& each : words) do_round(each, to<Result>(key));
         });
     }
 

@@ -94,28 +94,53 @@ RDDL_INLINE T sum_over_true(Context<L>& context, const std::array<Mask<width>, n
     return total;
 }
 
-// Makes all of the target false, and calls mark(x, entry, is_true) for each entry of the rows of
-// all x that are true, in packs of those that are true in one of the environments.
-template <class Target, std::size_t n, class Rows, class Mark>
-RDDL_INLINE void visit_true(Target& target, const std::array<bool, n>& row, const Rows& rows,
-                            Mark&& mark) {
-    assign(target, false);
-    detail::for_each_word(row, [&](Index first, std::uint64_t bits) {
-        for (; bits != 0; bits &= bits - 1) {
-            const Index x = first + __builtin_ctzll(bits);
-            for (Index entry = rows[x]; entry < rows[x + 1]; ++entry) mark(x, entry, true);
-        }
+// The true ones of a row, to be visited: their bits in words, or in packs the row as it is.
+template <std::size_t n>
+struct TrueElements {
+    std::array<std::uint64_t, (n + 63) / 64> words;
+};
+template <std::size_t n>
+RDDL_INLINE TrueElements<n> true_elements(const std::array<bool, n>& row) {
+    return {words_of_bools<n>(row.data())};
+}
+template <std::size_t n, int width>
+RDDL_INLINE const std::array<Mask<width>, n>& true_elements(const std::array<Mask<width>, n>& row) {
+    return row;
+}
+
+// Calls mark(x, is_true) for all x that are true, in packs for those that are true in one of the
+// environments.
+template <std::size_t n, class Mark>
+RDDL_INLINE void visit_true(const TrueElements<n>& elements, Mark&& mark) {
+    Index first = 0;
+    for (std::uint64_t bits : elements.words) {
+        for (; bits != 0; bits &= bits - 1) mark(first + __builtin_ctzll(bits), true);
+        first += 64;
+    }
+}
+template <std::size_t n, int width, class Mark>
+RDDL_INLINE void visit_true(const std::array<Mask<width>, n>& elements, Mark&& mark) {
+    for (Index x = 0; x < static_cast<Index>(n); ++x) {
+        const Mask<width> is_true = elements[static_cast<std::size_t>(x)];
+        if (any(is_true)) mark(x, is_true);
+    }
+}
+// The same with mark(x, entry, is_true) for each entry of the rows of all these x.
+template <class Elements, class Rows, class Mark>
+RDDL_INLINE void visit_true(const Elements& elements, const Rows& rows, Mark&& mark) {
+    visit_true(elements, [&](Index x, const auto& is_true) RDDL_INLINE_LAMBDA {
+        for (Index entry = rows[x]; entry < rows[x + 1]; ++entry) mark(x, entry, is_true);
     });
 }
-template <class Target, std::size_t n, int width, class Rows, class Mark>
-RDDL_INLINE void visit_true(Target& target, const std::array<Mask<width>, n>& row, const Rows& rows,
-                            Mark&& mark) {
-    assign(target, false);
-    for (Index x = 0; x < static_cast<Index>(n); ++x) {
-        const Mask<width> is_true = row[static_cast<std::size_t>(x)];
-        if (!any(is_true)) continue;
-        for (Index entry = rows[x]; entry < rows[x + 1]; ++entry) mark(x, entry, is_true);
-    }
+
+// Gives an element the value where the condition is true.
+template <bool value>
+RDDL_INLINE void mark(bool& element, bool condition) {
+    if (condition) element = value;
+}
+template <bool value, int width>
+RDDL_INLINE void mark(Mask<width>& element, Mask<width> condition) {
+    element = value ? element || condition : element && !condition;
 }
 
 }  // namespace rddl

@@ -117,6 +117,37 @@ TEST(TabulateCounts, LeavesWhatDependsOnMore) {
     }
 }
 
+// The value of x, where c is an int of the state with this CPF.
+std::string with_counter(const std::string& cpf_of_c, const std::string& cpf_of_x) {
+    Problem problem = with_tables(cpf_of_x);
+    problem.pvariables += "c : { state-fluent, int, default = 3 };";
+    problem.cpfs += "c' = " + cpf_of_c + ";";
+    return of_x(grounded(problem), passes::tabulate_counts).after;
+}
+
+// Callers set states and horizons, so a test comes first. There are ten steps.
+TEST(TabulateCounts, TakesCountersOfStepsAfterATest) {
+    EXPECT_EQ(with_counter("c + 2", "x + sin[c / 2.0]"),
+              "state.x + select mostly first(state.c >= 3 && state.c <= 23, "
+              "x-by-c[maximum(minimum(state.c, 23), 3) - 3], sin(real(state.c) / 2.0))");
+    EXPECT_EQ(with_counter("if (c == 4) then 0 else c + 1", "sin[c / 2.0] + cos[x + c]"),
+              "select mostly first(state.c >= 0 && state.c <= 4, "
+              "x-by-c[maximum(minimum(state.c, 4), 0)], sin(real(state.c) / 2.0)) + "
+              "cos(state.x + real(state.c))");
+}
+
+TEST(TabulateCounts, TakesCountersWithObjects) {
+    EXPECT_EQ(with_counter("c - 1", "sum_{?o : obj} [v(?o) * sin[W(?o) * c]]"),
+              "sum[o in obj](state.v[o] * select mostly first(state.c >= -7 && state.c <= 3, "
+              "x-by-c[maximum(minimum(state.c, 3), -7) - -7, o], sin(W[o] * real(state.c))))");
+}
+
+TEST(TabulateCounts, LeavesIntsThatDoNotCount) {
+    for (const char* const cpf : {"if (x > 2) then c + 1 else c", "c + Poisson(1.0)", "c * c * c"})
+        EXPECT_EQ(with_counter(cpf, "sin[c / 2.0]"), "sin(real(state.c) / 2.0)") << cpf;
+    EXPECT_EQ(with_counter("c + 1", "c + 0.5"), "real(state.c) + 0.5");
+}
+
 // Not every int beyond 2^53 is a double, which ranges are of.
 TEST(TabulateCounts, LeavesCountsThatAreTooLarge) {
     EXPECT_EQ(tabulated("exp[(exists_{?o : obj} p(?o)) - 9007199254740993]"),

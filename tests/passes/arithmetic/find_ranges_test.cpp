@@ -1,5 +1,6 @@
 #include "passes/arithmetic/find_ranges.hpp"
 
+#include "ir/rewrite.hpp"
 #include "passes/aggregations/make_aggregations_sparse.hpp"
 #include "texts.hpp"
 
@@ -62,6 +63,20 @@ TEST(FindRanges, TakesNoNumberFromOutsideForFinite) {
         passes::find_ranges(grounded(with_part("v(?o) / (N(?o) - 3.0)", "cos[part(?o)]")), report);
     EXPECT_FALSE(is_known_finite(program, "part", ir::Storage::Scratch));
     EXPECT_FALSE(is_known_finite(program, "x", ir::Storage::Next)) << "cos[inf] is nan";
+}
+
+// Of ints as well: an interm-fluent that is drawn has the range of the draw.
+TEST(FindRanges, KnowsTheValuesOfInts) {
+    Problem problem{.pvariables =
+                        "k : { interm-fluent, int };\n"
+                        "x : { state-fluent, int, default = 0 };",
+                    .cpfs = "k = 2 + Bernoulli(0.5);\nx' = if (k >= 2) then min[k, 9] else 7;"};
+    passes::Report report;
+    ir::Program program = valid(passes::find_ranges(grounded(problem), report));
+    program = ir::rewrite(std::move(program), [](ir::Builder&, ir::NodeId, const ir::Node&) {
+        return std::optional<ir::NodeId>();
+    });
+    EXPECT_EQ(value_of_x(program), "scratch.k");
 }
 
 // The pass is useful for this.

@@ -32,9 +32,8 @@ std::string loop_for(const std::string& cpf_of_on) {
 }
 
 TEST(EvaluateTogether, TakesLoopsThatDrawOrGiveBools) {
-    for (const char* cpf :
-         {"Normal(v(?x, ?y), 1.0) > 2.0", "v(?x, ?y) > 2.0", "Bernoulli(v(?x, ?y))",
-          "Bernoulli(if (a) then 0.25 else 0.5)"})
+    for (const char* cpf : {"Normal(v(?x, ?y), 1.0) > 2.0", "v(?x, ?y) > 2.0",
+                            "Bernoulli(v(?x, ?y))", "Bernoulli(if (a) then 0.25 else 0.5)"})
         EXPECT_EQ(loop_for(cpf), "for x in obj, several at once") << cpf;
 }
 

@@ -54,8 +54,8 @@ constexpr auto constants = [] {
 }();
 
 // Objects in loops over several at once and in loops over many.
-template <class L, std::size_t n, std::size_t size, class Places>
-void expect_the_same(const Places& places) {
+template <class L, std::size_t n, std::size_t size, const auto& places>
+void expect_the_same_at() {
     std::array<typename L::Bool, size> from;
     for (std::size_t i = 0; i < size; ++i) from[i] = bool_at<L>(i);
     std::array<typename L::Element, n> chance;
@@ -63,13 +63,13 @@ void expect_the_same(const Places& places) {
     const typename L::Bool flag = bool_at<L>(3);
     const auto body = [&](Tables<L, n>& to) {
         return [&](auto& several, auto x) {
-            elements(to.on, x) = select(at(constants<n>, x), !at_places(from, x, places), flag);
+            elements(to.on, x) = select(at(constants<n>, x), !at_places<places>(from, x), flag);
             elements(to.chosen, x) = branch(
                 flag && at(constants<n>, x), [&] { return true; },
                 [&] { return flag != at(constants<n>, x); }, [&] { return false; },
-                [&] { return at_places(from, x, places) == flag; });
+                [&] { return at_places<places>(from, x) == flag; });
             elements(to.drawn, x) = branch(
-                several, at_places(from, x, places) && at(constants<n>, x),
+                several, at_places<places>(from, x) && at(constants<n>, x),
                 [&] {
                     return sample::valid_bernoulli(several, {0, x}, at(chance, x));
                 },
@@ -93,11 +93,24 @@ void expect_the_same(const Places& places) {
     expect(expected.drawn_everywhere, result.drawn_everywhere);
 }
 
+template <std::size_t n, std::size_t size, class Place>
+constexpr auto places_of = [] {
+    std::array<Place, n> places{};
+    for (std::size_t i = 0; i < n; ++i) places[i] = static_cast<Place>((11 * i + size - 1) % size);
+    return places;
+}();
+// Places that follow each other, that are equal, and others, each for 40 objects.
+template <std::size_t n, std::size_t size, class Place>
+constexpr auto lines_of = [] {
+    std::array<Place, n> places{};
+    for (std::size_t i = 0; i < n; ++i)
+        places[i] = static_cast<Place>((i / 40 % 3 == 0 ? i : i / 40 % 3 == 1 ? 5 : 11 * i) % size);
+    return places;
+}();
 template <class L, std::size_t n, std::size_t size, class Place>
 void expect_the_same() {
-    std::array<Place, n> places;
-    for (std::size_t i = 0; i < n; ++i) places[i] = static_cast<Place>((11 * i + size - 1) % size);
-    expect_the_same<L, n, size>(places);
+    expect_the_same_at<L, n, size, places_of<n, size, Place>>();
+    expect_the_same_at<L, n, size, lines_of<n, size, Place>>();
 }
 
 // Full registers and parts of them, and tables that registers can look up and greater ones.
@@ -116,6 +129,50 @@ TEST(ManyObjects, OfPacks) {
     expect_the_same<Pack<64>, 3, 33, std::uint8_t>();
     expect_the_same<Pack<64>, 16, 300, std::uint16_t>();
     expect_the_same<Pack<64, float>, 21, 21, std::uint8_t>();
+}
+
+// Object i reads the bools i and 3 i + 1 of few; none, one, some or many of which are true.
+template <class L>
+void expect_the_affected(std::size_t every) {
+    constexpr std::size_t n = 100;
+    std::array<std::uint8_t, n> places;
+    std::array<std::int64_t, n + 1> rows{};
+    std::array<std::int64_t, 2 * n> readers;
+    std::array<typename L::Bool, n> few;
+    for (std::size_t i = 0; i < n; ++i) places[i] = static_cast<std::uint8_t>((3 * i + 1) % n);
+    for (std::size_t k = 0; k < n; ++k) {
+        rows[k + 1] = rows[k];
+        for (std::size_t i = 0; i < n; ++i)
+            if (i == k || places[i] == k)
+                readers[static_cast<std::size_t>(rows[k + 1]++)] = static_cast<std::int64_t>(i);
+        few[k] = typename L::Bool(every != 0 && k % every == every / 2);
+    }
+    std::array<double, n> chance;
+    chance.fill(0.5);
+    std::array<typename L::Bool, n> expected, result;
+    result.fill(typename L::Bool(true));  // what was there does not count
+    const auto body = [&](auto& to) {
+        return [&](auto& several, auto x) {
+            elements(to, x) = branch(
+                several, at(few, x),
+                [&] {
+                    return sample::valid_bernoulli(several, {0, x}, at(chance, x));
+                },
+                [&] { return at_places(few, x, places); });
+        };
+    };
+    Context<L> context = context_of_lanes<L>(), same_context = context_of_lanes<L>();
+    for_each_object(context, n, body(expected));
+    for_affected_objects<n>(same_context, few, rows, readers, result, body(result));
+    for (std::size_t i = 0; i < n; ++i)
+        for (int lane = 0; lane < lanes<L>; ++lane)
+            EXPECT_EQ(get_lane(expected[i], lane), get_lane(result[i], lane)) << every << ' ' << i;
+}
+TEST(ManyObjects, ThatFewBoolsAffect) {
+    for (const std::size_t every : {0, 3, 17, 65, 199}) {
+        expect_the_affected<Scalar>(every);
+        expect_the_affected<Pack<16>>(every);
+    }
 }
 
 // Callers give any byte but 0 for true; in packs they are masks already.

@@ -139,17 +139,22 @@ TEST(Objects, ChooseElementsOfTheirOwn) {
 
 // The places of some objects in tables of other sizes: those that registers hold, and greater ones.
 template <std::size_t size, class Place, std::size_t objects>
+constexpr auto places_of = [] {
+    std::array<Place, objects> places{};
+    for (std::size_t i = 0; i < objects; ++i)
+        places[i] = static_cast<Place>((11 * i + size - 1) % size);
+    return places;
+}();
+template <std::size_t size, class Place, std::size_t objects>
 void expect_bools_at_places() {
     std::array<bool, size> on;
     for (std::size_t i = 0; i < size; ++i) on[i] = i % 3 == 0 || i % 7 == 2;
-    std::array<Place, objects> places;
-    for (std::size_t i = 0; i < objects; ++i)
-        places[i] = static_cast<Place>((11 * i + size - 1) % size);
+    static constexpr const auto& places = places_of<size, Place, objects>;
     Context<Scalar> context = context_of_step(1);
     std::array<bool, objects + 1> chosen{};
     constexpr auto object_count = static_cast<Index>(objects);
     for_each_object(context, object_count,
-                    [&](auto&, auto x) { elements(chosen, x) = at_places(on, x, places); });
+                    [&](auto&, auto x) { elements(chosen, x) = at_places<places>(on, x); });
     for (std::size_t i = 0; i < objects; ++i) {
         EXPECT_EQ(chosen[i], on[places[i]]) << size << " " << i;
         EXPECT_EQ(element(on, static_cast<Index>(places[i])), on[places[i]]);

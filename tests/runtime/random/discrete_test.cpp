@@ -74,6 +74,30 @@ TEST(Interval, IsTheNumberOfThresholdsThatTheUniformNumberReaches) {
     }
 }
 
+// The draws of places that stand alone have the same numbers.
+TEST(LonePlace, ChangesNoNumber) {
+    constexpr int n = 16;
+    Context<Scalar> context{stream_key(5, 0, 0), 3, {}}, median{median_key, 3, {}};
+    typename Pack<n>::Word low, high;
+    for (int lane = 0; lane < n; ++lane) {
+        const StreamKey key =
+            lane == 7 ? median_key : stream_key(5, static_cast<std::uint64_t>(lane), 0);
+        low.set(lane, key.low);
+        high.set(lane, key.high);
+    }
+    auto packs = Context<Pack<n>>::of(low, high, typename Pack<n>::Word{std::uint64_t{3}}, true);
+    for (int i = 0; i < 5; ++i) {
+        EXPECT_EQ(uniform_at(context, LonePlace{2, i}), uniform_at(context, Place{2, i}));
+        EXPECT_EQ(uniform_at(median, LonePlace{2, i}), median_number);
+        const auto alone = uniform_at(packs, LonePlace{2, i}), all = uniform_at(packs, Place{2, i});
+        for (int lane = 0; lane < n; ++lane) EXPECT_EQ(alone[lane], all[lane]);
+        EXPECT_EQ(sample::normal(context, LonePlace{1, i}, 2.0, 3.0),
+                  sample::normal(context, {1, i}, 2.0, 3.0));
+        EXPECT_EQ(sample::interval<few_thresholds>(context, LonePlace{0, i}),
+                  sample::interval<few_thresholds>(context, {0, i}));
+    }
+}
+
 TEST(Discrete, IsTheSmallestIndexWhoseSumExceedsTheUniformNumber) {
     Context<Scalar> context{stream_key(5, 0, 0), 1, {}};
     const std::array<double, 3> weights{0.2, 0.5, 0.3};

@@ -66,8 +66,8 @@ RDDL_INLINE auto parameter(const Parameter& value) {
 }  // namespace detail
 
 // Variance, not standard deviation; variance 0 gives the mean. Each is a real of L, or one number.
-template <class L, class Mean, class Variance>
-RDDL_INLINE typename L::Real normal(Context<L>& context, Place place, const Mean& mean,
+template <class L, class Mean, class Variance, class SomePlace = Place>
+RDDL_INLINE typename L::Real normal(Context<L>& context, SomePlace place, const Mean& mean,
                                     const Variance& variance) {
     using Real = typename L::Real;
     const auto squared_scale = detail::parameter<L>(variance);

@@ -18,14 +18,15 @@
 namespace rddl::sample {
 
 // U < p, with U in [0, 1): never true for p <= 0, always for p >= 1.
-template <class L>
-RDDL_INLINE typename L::Bool bernoulli(Context<L>& context, Place place, typename L::Real p) {
+template <class L, class SomePlace = Place>
+RDDL_INLINE typename L::Bool bernoulli(Context<L>& context, SomePlace place, typename L::Real p) {
     const auto valid = context.require(is_probability<L>(p), FaultKind::Probability, place, p);
     return valid && uniform_at(context, place) < p;
 }
 // The same for what is known to be a probability.
-template <class L>
-RDDL_INLINE typename L::Bool valid_bernoulli(Context<L>& context, Place place, typename L::Real p) {
+template <class L, class SomePlace = Place>
+RDDL_INLINE typename L::Bool valid_bernoulli(Context<L>& context, SomePlace place,
+                                             typename L::Real p) {
     return uniform_at(context, place) < p;
 }
 
@@ -114,8 +115,8 @@ inline constexpr Index most_counted = 8;  // longer rows are searched by halves
 
 // How many thresholds of a row are at most U: an index with as many probabilities as there are
 // intervals between them. The indices of the row are in range in the active lanes.
-template <const auto& thresholds, class L, class... Row>
-RDDL_INLINE typename L::Int interval(Context<L>& context, Place place, const Row&... row) {
+template <const auto& thresholds, class L, class SomePlace = Place, class... Row>
+RDDL_INLINE typename L::Int interval(Context<L>& context, SomePlace place, const Row&... row) {
     using Int = typename L::Int;
     constexpr Index size = detail::RowLength<std::remove_cvref_t<decltype(thresholds)>>::value;
     const auto u = uniform_at(context, place);

@@ -1,0 +1,153 @@
+#include "passes/lanes/visit_affected.hpp"
+
+#include "ir/builder.hpp"
+#include "ir/nest.hpp"
+#include "ir/rewrite.hpp"
+#include "passes/analyses/bool_words.hpp"
+
+#include <algorithm>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace rddlc::passes {
+namespace {
+
+// Initially, at most one of so many is true.
+constexpr std::int64_t least_per_true = 16;
+// More objects that one bool affects, on average, take longer than all in registers.
+constexpr std::int64_t most_affected = 8;
+
+class Affecting {
+  public:
+    Affecting(ir::Program program, Report& report)
+        : program_(std::move(program)), report_(report), builder_(program_) {}
+
+    ir::Program run() && {
+        for (ir::Definition& definition : program_.step)
+            for (ir::Statement& statement : definition.body)
+                if (auto* loop = std::get_if<ir::Loop>(&statement.form))
+                    change(*loop, definition.span);
+        return ir::collect_garbage(std::move(program_));
+    }
+
+  private:
+    void change(ir::Loop& loop, Span span) {
+        const ir::Nest nest = ir::nest_of(loop);
+        const auto* store = ir::only_statement<ir::Store>(*nest.body);
+        if (loop.affected || !loop.as_words || !store || !are_many(program_, nest)) return;
+        // Without draws, all objects in registers take few instructions.
+        if (!builder_.properties(store->value).random) return;
+        std::set<ir::BufferId> read;
+        collect_tables(store->value, read);
+        for (const ir::BufferId few : read) {
+            if (!is_few(few, nest) || !is_false_without(few, store->value, nest)) continue;
+            const auto readers = readers_of(few, store->value, nest);
+            if (!readers) continue;
+            loop.affected = affected_by(few, *readers, span);
+            ++report_["loops over the objects that few bools affect"];
+            return;
+        }
+    }
+
+    void collect_tables(ir::NodeId id, std::set<ir::BufferId>& read) const {
+        if (const auto buffer = ir::buffer_read_by(program_[id])) read.insert(*buffer);
+        for (const ir::NodeId operand : ir::operands_of(program_[id]))
+            collect_tables(operand, read);
+    }
+
+    bool is_few(ir::BufferId id, const ir::Nest& nest) const {
+        const ir::Buffer& buffer = program_[id];
+        if (buffer.storage != ir::Storage::State || buffer.scalar != ir::Scalar::Bool ||
+            buffer.count() != ir::combinations(program_, nest.variables))
+            return false;
+        const std::vector<ir::Value> values = buffer.values.dense();
+        const std::int64_t count = std::ranges::count(values, ir::Value(true));
+        return count > 0 && count * least_per_true <= std::ssize(values);
+    }
+
+    // An object's own element, or one that its place chooses.
+    bool is_read_by_object(ir::NodeId id, ir::BufferId few, const ir::Nest& nest) const {
+        if (const auto* load = std::get_if<ir::Load>(&program_[id].form))
+            return load->buffer == few && ir::begins_with(program_, load->indices, nest);
+        const auto* element = std::get_if<ir::Element>(&program_[id].form);
+        return element && element->buffer == few;
+    }
+
+    bool is_false_without(ir::BufferId few, ir::NodeId value, const ir::Nest& nest) {
+        std::map<ir::NodeId, ir::NodeId> known;
+        const ir::NodeId rest =
+            ir::replace_in(builder_, value, known, [&](ir::NodeId id) -> std::optional<ir::NodeId> {
+                if (!is_read_by_object(id, few, nest)) return std::nullopt;
+                return builder_.constant(false);
+            });
+        return ir::constant<bool>(program_, rest) == false;
+    }
+
+    // By element of the table: the objects that read it.
+    using Objects = std::vector<std::set<std::int64_t>>;
+    std::optional<Objects> readers_of(ir::BufferId few, ir::NodeId value, const ir::Nest& nest) {
+        const std::int64_t count = program_[few].count();
+        Objects readers(static_cast<std::size_t>(count));
+        if (!collect_readers(few, value, nest, readers)) return std::nullopt;
+        std::int64_t all = 0;
+        for (const std::set<std::int64_t>& each : readers) all += std::ssize(each);
+        if (all > most_affected * count) return std::nullopt;
+        return readers;
+    }
+    bool collect_readers(ir::BufferId few, ir::NodeId id, const ir::Nest& nest, Objects& readers) {
+        if (is_read_by_object(id, few, nest)) {
+            const auto* element = std::get_if<ir::Element>(&program_[id].form);
+            const auto* places =
+                element ? std::get_if<ir::Load>(&program_[element->place].form) : nullptr;
+            if (element && !places) return false;
+            for (std::int64_t object = 0; object < std::ssize(readers); ++object) {
+                const std::int64_t place =
+                    places ? std::get<std::int64_t>(program_[places->buffer].values[object])
+                           : object;
+                readers[static_cast<std::size_t>(place)].insert(object);
+            }
+            return true;
+        }
+        return std::ranges::all_of(ir::operands_of(program_[id]), [&](ir::NodeId operand) {
+            return collect_readers(few, operand, nest, readers);
+        });
+    }
+
+    ir::Affected affected_by(ir::BufferId few, const Objects& readers, Span span) {
+        std::vector<ir::Value> begins, objects;
+        for (const std::set<std::int64_t>& each : readers) {
+            begins.emplace_back(std::ssize(objects));
+            for (const std::int64_t object : each) objects.emplace_back(object);
+        }
+        begins.emplace_back(std::ssize(objects));
+        const std::string name = program_[few].name + "-affects";
+        return {few, table(name + "-rows", std::move(begins), span),
+                table(name, std::move(objects), span)};
+    }
+    ir::BufferId table(const std::string& name, std::vector<ir::Value> values, Span span) {
+        const auto size = std::ssize(values);
+        return builder_.tables().constant({.name = name,
+                                           .storage = ir::Storage::Constant,
+                                           .scalar = ir::Scalar::Int,
+                                           .shape = {size},
+                                           .values = std::move(values),
+                                           .span = span});
+    }
+
+    ir::Program program_;
+    Report& report_;
+    ir::Builder builder_;
+};
+
+}  // namespace
+
+ir::Program visit_affected(ir::Program program, Report& report) {
+    return Affecting(std::move(program), report).run();
+}
+
+}  // namespace rddlc::passes

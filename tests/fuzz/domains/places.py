@@ -1,0 +1,83 @@
+"""Places of few things: tables of bools of which few are true, on roads and by directions."""
+
+from domains.draft import ACTION, CONSTANT, STATE, Draft, boolean, of, over
+from rddl_problem import Type
+
+FROM, TO = "?s", "?t"
+
+
+def add(draft: Draft) -> None:
+    for part in draft.rng.sample([roads, robots], draft.pick([1, 1, 2])):
+        part(draft)
+
+
+def spots(draft: Draft, counts: list[int]) -> str:
+    name = draft.fresh("spot")
+    draft.problem.types.append(Type(name, False, [f"{name}-{i}" for i in range(draft.pick(counts))]))
+    return name
+
+
+def roads(draft: Draft) -> None:
+    """A vehicle, or two, on roads between many places; spare tires lie there."""
+    spot = spots(draft, [17, 17, 18, 20, 33, 65, 66])
+    members = draft.problem.type(spot).members
+    road = draft.declare("ROAD", CONSTANT, "bool", spot, spot, default="false")
+    for index, member in enumerate(members):
+        for offset in draft.rng.sample([0, 1, 2, 5, len(members) - 1], draft.pick([0, 1, 2, 2])):
+            road.values[(member, members[(index + offset) % len(members)])] = "true"
+    vehicle = draft.declare("vehicle-at", STATE, "bool", spot, default="false")
+    for member in draft.rng.sample(members, draft.pick([1, 1, 1, 2]) if len(members) > 32 else 1):
+        vehicle.values[(member,)] = "true"
+    move = draft.declare("move", ACTION, "bool", spot, spot, default="false")
+    load = draft.declare("load", ACTION, "bool", spot, default="false")
+    moves = draft.pick([boolean("true"), draft.some_bool({})])
+
+    def moved(source: str, target: str):
+        factors = [draft.at(move, source, target), draft.at(vehicle, source), draft.at(road, source, target), moves]
+        draft.rng.shuffle(factors)
+        return boolean("(%s ^ %s ^ %s ^ %s)", *factors)
+
+    comes, goes = over("exists", FROM, spot, moved(FROM, "?p")), over("exists", TO, spot, moved("?p", TO))
+    here = draft.at(vehicle, "?p")
+    next_place = draft.pick([
+        boolean("(if (%s) then true else if (%s) then false else %s)", comes, goes, here),
+        boolean("(if (%s) then false else if (%s) then true else %s)", goes, comes, here),
+        boolean("(%s | (%s ^ ~%s))", comes, here, goes),
+        boolean("((%s | %s) ^ ~%s)", here, comes, goes),
+        boolean("(if (%s) then true else %s)", comes, draft.pick([here, boolean("false"), boolean("true")])),
+        boolean("(%s ~= %s)", comes, here),
+    ])  # fmt: skip
+    draft.define(vehicle, ("?p",), next_place)
+    spare = draft.declare("spare-in", STATE, "bool", spot)
+    taken = boolean("(%s ^ %s ^ %s)", draft.at(load, "?p"), draft.at(vehicle, "?p"), draft.at(spare, "?p"))
+    draft.define(spare, ("?p",), boolean(draft.pick(["(if (%s) then false else %s)", "(~%s ^ %s)", "(%s | %s)"]), taken, draft.at(spare, "?p")))
+    stock = draft.declare("stock", STATE, "bool")
+    draft.define(stock, (), boolean(draft.pick(["(%s | %s)", "(%s ^ ~%s)"]), over("exists", "?p", spot, taken), draft.at(stock)))
+    went = over("exists", f"{FROM} : {spot}, {TO}", spot, moved(FROM, TO))
+    draft.earn(boolean("%s", draft.interm("went", {}, went).name))
+    draft.earn(over("sum", "?p", spot, draft.at(vehicle, "?p", prime=draft.chance(0.5))))
+
+
+def robots(draft: Draft) -> None:
+    """Each robot goes where its direction leads, by tables of the directions."""
+    robot, spot = draft.objects("robot"), spots(draft, [8, 9, 16, 17, 31, 32, 33, 64, 65])
+    way = draft.enumeration("way", draft.pick([1, 2, 3, 5]))
+    members, size = draft.problem.type(spot).members, draft.size(spot)
+    leads = draft.declare("LEADS", CONSTANT, "bool", way.name, spot, spot, default="false")
+    for word in way.members:
+        offset, spread = draft.pick([0, 1, -1, 3, -4]), draft.pick([1, 1, 1, 2, 3])
+        for index, member in enumerate(members):
+            for k in range(spread if draft.chance(0.9) else 0):
+                leads.values[(word, member, members[(index + offset + k) % size])] = "true"
+    place = draft.declare("robot-at", STATE, "bool", robot, spot, default="false")
+    for member in draft.problem.type(robot).members:
+        for other in draft.rng.sample(members, draft.pick([0, 1, 1, 1]) + (size > 31 and draft.chance(0.2))):
+            place.values[(member, other)] = "true"
+    drive = draft.declare("drive", draft.pick([ACTION, ACTION, STATE]), way.name, robot, default=way.literal(way.members[-1]))
+    if drive.role == STATE:
+        draft.define(drive, ("?r",), of(way.name, "%s", draft.at(drive, "?r")))
+    reached = boolean(f"(%s ^ (%s == ?w) ^ %s)", draft.at(place, "?r", FROM), draft.at(drive, "?r"), draft.at(leads, "?w", FROM, "?p"))
+    if draft.chance(0.4):
+        reached = boolean("(%s ^ %s)", reached, draft.some_bool(draft.pick([{}, {"?r": robot}, {"?p": spot}, {FROM: spot}])))
+    draft.define(place, ("?r", "?p"), over("exists", f"{FROM} : {spot}, ?w", way.name, reached))
+    draft.earn(over("sum", f"?r : {robot}, ?p", spot, boolean("%s", draft.at(place, "?r", "?p"))))
