@@ -224,7 +224,7 @@ RDDL_INLINE Vector gathered(const Bool* table, const Place* places) {
 }  // namespace many_bools
 
 // The places of as many objects as a register holds, where they are equal or follow each other.
-struct Line {
+struct PlaceLine {
     enum class Form : std::uint8_t { Other, Equal, Consecutive };
     Form form;
     std::int32_t first;  // of the places
@@ -247,7 +247,7 @@ constexpr std::int64_t element_of(const std::array<T, n>& table, std::size_t i) 
 }
 
 template <class Places>
-constexpr Line line_of(const Places& places, std::size_t begin, std::size_t end) {
+constexpr PlaceLine line_of(const Places& places, std::size_t begin, std::size_t end) {
     const std::int64_t first = element_of(places, begin);
     bool are_equal = true, are_consecutive = true;
     for (std::size_t i = begin; i < end; ++i) {
@@ -255,9 +255,9 @@ constexpr Line line_of(const Places& places, std::size_t begin, std::size_t end)
         are_equal &= place == first;
         are_consecutive &= place == first + static_cast<std::int64_t>(i - begin);
     }
-    const Line::Form form = are_equal         ? Line::Form::Equal
-                            : are_consecutive ? Line::Form::Consecutive
-                                              : Line::Form::Other;
+    const PlaceLine::Form form = are_equal         ? PlaceLine::Form::Equal
+                                 : are_consecutive ? PlaceLine::Form::Consecutive
+                                                   : PlaceLine::Form::Other;
     return {form, static_cast<std::int32_t>(first)};
 }
 
@@ -270,7 +270,7 @@ inline constexpr std::int64_t most_places_in_lines = 4096;
 template <const auto& places, int width>
 inline constexpr auto lines_of_places = [] {
     constexpr std::size_t count = many_bools::count_in<std::remove_cvref_t<decltype(places)>>;
-    std::array<Line, (count + width - 1) / width> lines{};
+    std::array<PlaceLine, (count + width - 1) / width> lines{};
     for (std::size_t k = 0; k < lines.size(); ++k) {
         const std::size_t end = (k + 1) * width;
         lines[k] = many_bools::line_of(places, k * width, end < count ? end : count);
@@ -281,14 +281,15 @@ inline constexpr auto lines_of_places = [] {
 // The same of packs, whose places may be lines.
 template <int n, std::int64_t size, int lanes, class Place>
 RDDL_INLINE ManyBools<Mask<lanes>, n> choose_many(const Mask<lanes>* table, const Place* places,
-                                                  const Line* lines) {
+                                                  const PlaceLine* lines) {
     using Many = ManyBools<Mask<lanes>, n>;
     using Vector = typename Many::Vector;
     return Many::of_parts([&]<int p, int count>() RDDL_INLINE_LAMBDA {
         constexpr int bytes = count * static_cast<int>(sizeof(Mask<lanes>));
         const Mask<lanes>* const first = table + lines[p].first;
-        if (lines[p].form == Line::Form::Consecutive) return simd::load_bytes<Vector, bytes>(first);
-        if (lines[p].form == Line::Form::Equal) return first->bits - Vector{};
+        if (lines[p].form == PlaceLine::Form::Consecutive)
+            return simd::load_bytes<Vector, bytes>(first);
+        if (lines[p].form == PlaceLine::Form::Equal) return first->bits - Vector{};
         return many_bools::gathered<Vector, size, count>(table, places + p * Many::part_width);
     });
 }

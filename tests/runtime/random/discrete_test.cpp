@@ -1,5 +1,6 @@
 #include "fit.hpp"
 
+#include <rddl/random/distributions/continuous.hpp>
 #include <rddl/random/distributions/discrete.hpp>
 
 #include <gtest/gtest.h>
