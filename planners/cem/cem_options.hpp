@@ -10,8 +10,8 @@
 namespace rddlc::planners {
 
 enum class Weights { Elites, Mppi };
-// What follows the horizon of plans: the policy plays on in the last comparison, or its values
-// count in all of them.
+// Behind the horizon of plans, the policy plays on in the last comparison, or its values count in
+// all of them.
 enum class Tail { Policy, Value };
 
 struct CemOptions : CommonOptions {

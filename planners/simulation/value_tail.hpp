@@ -1,4 +1,4 @@
-// What comes after the last step of futures, by the values that a policy has learned.
+// The return after the last step of futures, by the values that a policy has learned.
 #pragma once
 
 #include "planners/simulation/futures.hpp"

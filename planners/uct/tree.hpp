@@ -55,7 +55,7 @@ struct Edge {
     std::int32_t known_weight() const { return done + (estimates > 0); }
 };
 
-// What a choice among the actions of a node reads of each: the arms of a bandit.
+// An arm of a bandit: all that a choice among the actions of a node reads of one of them.
 struct Arm {
     double value = -std::numeric_limits<double>::infinity();  // of an edge that has one
     std::int32_t weight = 0;                                  // with trials that are under way
@@ -162,7 +162,7 @@ class Tree {
     std::vector<Node> nodes_;
     std::vector<Edge> edges_;
     std::vector<Arm> arms_;  // of edges
-    // Those of an edge lie together, in a block whose size is a power of two.
+    // The outcomes of an edge lie together, in a block whose size is a power of two.
     std::vector<Outcome> outcomes_;
     std::vector<std::byte> states_;
     StateTable ids_;

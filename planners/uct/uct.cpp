@@ -340,8 +340,8 @@ void Uct::write_actions() {
     }
 }
 
-// Of the states where trials are. Most of the time of a trial is that of the memory which it reads:
-// so it is asked for ahead.
+// Finds the keys of the states where trials are. Most of the time of a trial is that of the memory
+// which it reads, so it is asked for ahead.
 void Uct::find_keys(std::int64_t step) {
     for (std::size_t k = 0; k < trials_.size(); ++k) {
         if (trials_[k].is_down) continue;

@@ -109,7 +109,7 @@ class Uct : public Planner {
     void compare_all_twins(const DecisionPoint& point, RandomStream& stream, BudgetMeter& meter);
     bool draw_twins(NodeId node, DeterminisedProblem::StateId state, std::int32_t draws,
                     const DecisionPoint& point, RandomStream& stream, BudgetMeter& meter);
-    // Of steps that continuations have made.
+    // The outcomes of two steps that continuations have made.
     bool has_same_outcome(std::size_t k, std::size_t j) const;
     void lock(Node& node, double reward);
     void take_values(std::size_t first, std::size_t count);

@@ -146,7 +146,8 @@ struct DrpTrainer::State {
         if (progress.mean_length == 0) progress.mean_length = length;
         const double most = options.clip * progress.mean_length;
         progress.mean_length += 0.05 * (std::min(length, most) - progress.mean_length);
-        // Of length 1 in the mean, so that Adam's epsilon does not depend on the size of rewards.
+        // The step has length 1 in the mean, so that Adam's epsilon does not depend on the size of
+        // rewards.
         const double factor = -std::min(1.0, most / length) / progress.mean_length;
         adam_steps += 1;
         const auto steps = static_cast<double>(adam_steps);

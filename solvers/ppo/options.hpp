@@ -45,7 +45,7 @@ struct PpoOptions {
     Noise noise = Noise::Ar1;
     double correlation = 0.9;  // of Ar1, between a step and the next
     int noise_steps = 8;       // of Sde, with the same weights
-    // Of noise, at the start; absent: 0, or less where that would be ruinous (first_noise.hpp).
+    // The first noise; absent: 0, or less where that would be ruinous (first_noise.hpp).
     std::optional<double> log_deviation;
     bool squashes = false;  // reals with two bounds are tanh of a normal number, not cut
     // Rewards seeing more of the problem while nearly all episodes have the same return

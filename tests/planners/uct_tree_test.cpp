@@ -1,4 +1,4 @@
-// What plan:uct searches in: its tree, and the determinised problem.
+// Plan:uct searches in its tree and in the determinised problem.
 #include "planners/uct/determinised_problem.hpp"
 #include "planners/uct/tree.hpp"
 #include "planning.hpp"

@@ -31,7 +31,7 @@ struct Levels {
     ir::NodeId term;
 };
 
-// Those of them whose bits can be counted: the bool that they are about.
+// Aggregations whose bits can be counted, and the bool that they are about.
 struct CountedNest {
     Reduction op;
     std::vector<ir::Reduce> levels;  // outermost first

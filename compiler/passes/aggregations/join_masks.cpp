@@ -104,7 +104,7 @@ class Joining {
                     .sources = nest->variables};
         factors.erase(source);
 
-        // What the row depends on: the elements are the innermost loops without it.
+        // The row depends on these: the elements are the innermost loops without it.
         std::set<ir::VariableId> of_rows = free_variables_of(row_indices(image));
         for (const ir::NodeId factor : factors) find_choices(factor, image.sources, image.choices);
         for (const Choice& choice : image.choices)

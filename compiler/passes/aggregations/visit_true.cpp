@@ -68,7 +68,7 @@ class Visiting {
         Pairs pairs;
         bool value;
     };
-    // What visits the true bools of one table, and the tables that it marks as they are before.
+    // The visits of the true bools of one table, and the tables that they mark, as they are before.
     struct Together {
         ir::BufferId few;
         std::size_t place;  // of the definition in the step

@@ -78,7 +78,7 @@ class Separation {
         report_["loops whose aggregations are computed before"] += 1;
     }
 
-    // Of a value without these parts of it.
+    // The cost of a value without these parts of it.
     template <class IsLeftOut>
     double cost_of_rest(ir::NodeId id, const IsLeftOut& is_left_out) const {
         if (is_left_out(id)) return 0;

@@ -65,7 +65,7 @@ TEST(FindRanges, TakesNoNumberFromOutsideForFinite) {
     EXPECT_FALSE(is_known_finite(program, "x", ir::Storage::Next)) << "cos[inf] is nan";
 }
 
-// Of ints as well: an interm-fluent that is drawn has the range of the draw.
+// Ints have ranges as well: an interm-fluent that is drawn has the range of the draw.
 TEST(FindRanges, KnowsTheValuesOfInts) {
     Problem problem{.pvariables =
                         "k : { interm-fluent, int };\n"

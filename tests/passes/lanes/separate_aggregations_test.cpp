@@ -55,8 +55,8 @@ TEST(SeparateAggregations, LeavesThoseInBranchesAndWhatIsCheap) {
     }
 }
 
-// What the loop computes once is no reason for a table, nor a loop that is over several objects as
-// it is.
+// A value that the loop computes once is no reason for a table, nor is a loop that is over several
+// objects as it is.
 TEST(SeparateAggregations, LeavesLoopsThatWouldNotGain) {
     const std::string once = "(exp[sum_{?z : obj, ?w : obj} [depth(?z, ?w)]])";
     for (const std::string& cpf :

@@ -35,7 +35,8 @@ TEST(VisitAffected, ListsTheObjectsThatReadEachBool) {
               std::string::npos)
         << step_text(program);
     EXPECT_EQ(report["loops over the objects that few bools affect"], 1);
-    // Of b1 to b4: b1 and b2, b2 and b3, ...; objects that read none read b1 (index_directly).
+    // The objects of b1 to b4 are b1 and b2, b2 and b3, ...; objects that read none read b1
+    // (index_directly).
     EXPECT_TRUE(table_text(program, "at-affects[").find("= {0 1 1 2 2 3 3 4 ") != std::string::npos)
         << table_text(program, "at-affects[");
     const ir::Program again = passes::visit_affected(program, report);

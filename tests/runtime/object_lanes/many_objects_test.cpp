@@ -131,19 +131,25 @@ TEST(ManyObjects, OfPacks) {
     expect_the_same<Pack<64, float>, 21, 21, std::uint8_t>();
 }
 
+constexpr std::size_t affected_count = 100;
+constexpr auto affected_places = [] {
+    std::array<std::uint8_t, affected_count> places{};
+    for (std::size_t i = 0; i < affected_count; ++i)
+        places[i] = static_cast<std::uint8_t>((3 * i + 1) % affected_count);
+    return places;
+}();
+
 // Object i reads the bools i and 3 i + 1 of few; none, one, some or many of which are true.
 template <class L>
 void expect_the_affected(std::size_t every) {
-    constexpr std::size_t n = 100;
-    std::array<std::uint8_t, n> places;
+    constexpr std::size_t n = affected_count;
     std::array<std::int64_t, n + 1> rows{};
     std::array<std::int64_t, 2 * n> readers;
     std::array<typename L::Bool, n> few;
-    for (std::size_t i = 0; i < n; ++i) places[i] = static_cast<std::uint8_t>((3 * i + 1) % n);
     for (std::size_t k = 0; k < n; ++k) {
         rows[k + 1] = rows[k];
         for (std::size_t i = 0; i < n; ++i)
-            if (i == k || places[i] == k)
+            if (i == k || affected_places[i] == k)
                 readers[static_cast<std::size_t>(rows[k + 1]++)] = static_cast<std::int64_t>(i);
         few[k] = typename L::Bool(every != 0 && k % every == every / 2);
     }
@@ -158,7 +164,7 @@ void expect_the_affected(std::size_t every) {
                 [&] {
                     return sample::valid_bernoulli(several, {0, x}, at(chance, x));
                 },
-                [&] { return at_places(few, x, places); });
+                [&] { return at_places<affected_places>(few, x); });
         };
     };
     Context<L> context = context_of_lanes<L>(), same_context = context_of_lanes<L>();
