@@ -79,7 +79,7 @@ constexpr Pass in_order[] = {
     {"find_ranges",
      Phase::Arithmetic,
      find_ranges,
-     "finds within which range a real lies",
+     "finds within which range a number lies",
      {"fold_constant_expressions"},
      "ranges come from the values of tables, and the passes below use them"},
     {"fast_math",

@@ -10,6 +10,7 @@ namespace rddlc::planners {
 namespace {
 
 constexpr double first_bins = 8;
+constexpr double most_bins = 1e6;
 // The deviation of actions, in half widths of their bounds: many are at a bound, since that leads
 // furthest.
 constexpr double search_spread = 1.5;
@@ -124,6 +125,7 @@ void NoveltySearch::find_rare(RandomStream& stream) {
     constexpr double step = 1.25;
     if (rare_.size() * 4 < ran_.size()) bins_ *= step;
     if (rare_.size() * 2 > ran_.size()) bins_ /= step;
+    bins_ = std::clamp(bins_, 1 / most_bins, most_bins);
 }
 
 // Goes back from where the best course ended.

@@ -192,9 +192,13 @@ class PlanningActor {
                                      settings_.memory_limit, base_, settings_.derivatives,
                                      sees_state(problem, chosen_, settings_)});
         const std::int64_t horizon = solvers::steps_of_horizon(problem, decision.horizon);
-        if (!sees_state(problem, chosen_, settings_) && !beliefs_)
+        if (!sees_state(problem, chosen_, settings_) && !beliefs_) {
+            solvers::require_memory(simulator_,
+                                    Particles::batches * chosen_.common.particles * environments_,
+                                    settings_.memory_limit);
             beliefs_.emplace(simulator_, chosen_.common.particles, environments_, decision.horizon,
                              chosen_.common.seed);
+        }
         if (base_) ask_base(decision);
         for (std::size_t i = 0; i < decision.running.size(); ++i) {
             if (!decision.running[i]) continue;

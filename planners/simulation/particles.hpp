@@ -16,6 +16,9 @@ namespace rddlc::planners {
 
 class Particles {
   public:
+    // It holds so many environments for each particle.
+    static constexpr std::int64_t batches = 3;
+
     // The horizon is that of batches.
     Particles(const rddl_simulator& simulator, std::int64_t count, std::int64_t horizon);
 

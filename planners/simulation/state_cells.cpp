@@ -63,13 +63,14 @@ void StateCells::divide(const Column& column, const std::byte* states,
     for (std::size_t k = 0; k < wanted.size(); ++k) {
         if (!wanted[k]) continue;
         values_[k] = value_at(states + k * state_size_ + column.offset, column.scalar);
+        if (!std::isfinite(values_[k])) continue;
         least = std::min(least, values_[k]);
         most = std::max(most, values_[k]);
     }
     if (!(most > least) || !std::isfinite(most - least)) return;
     const double scale = bins / (most - least);
     for (std::size_t k = 0; k < wanted.size(); ++k)
-        if (wanted[k])
+        if (wanted[k] && std::isfinite(values_[k]))
             cells[k] = scrambled(cells[k] +
                                  static_cast<std::uint64_t>((values_[k] - least) * scale + offset));
 }

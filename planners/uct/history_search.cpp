@@ -280,19 +280,25 @@ HistorySearch::Id HistorySearch::widen(Id node, RandomStream& stream) {
     return tree().add_edge(node, record_.data());
 }
 
-// The next one of the list, which begins at another place in each node. At the root those that are
-// illegal come last: a repair makes others of them.
+// The next one of the list, which begins at another place in each node. At the root, which was
+// another node before, it is the first legal one that the root does not have: a repair makes others
+// of those that are illegal.
 HistorySearch::Id HistorySearch::add_listed(Id node) {
     const std::size_t count = listed_->count();
     const auto number = static_cast<std::size_t>(tree().node(node).edges);
     std::size_t action = (tree().node(node).key + number) % count;
     if (node == root_) {
-        std::size_t legal = 0;
-        for (std::size_t a = 0; a < count; ++a)
-            if (legal_at_root_[a] && legal++ == number) action = a;
-        if (number >= legal) return choose_edge(node);
+        for (action = 0; action < count; ++action)
+            if (legal_at_root_[action] && !has_edge(node, listed_->record(action))) break;
+        if (action == count) return choose_edge(node);
     }
     return tree().add_edge(node, listed_->record(action));
+}
+
+bool HistorySearch::has_edge(Id node, const std::byte* action) const {
+    for (Id edge = tree().node(node).first_edge; edge != 0; edge = tree().edge(edge).next)
+        if (std::equal(action, action + action_size_, tree().action(edge))) return true;
+    return false;
 }
 
 // UCB1, where trials under way count as tried.

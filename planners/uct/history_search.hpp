@@ -60,6 +60,7 @@ class HistorySearch : public Planner {
     bool may_widen(Id node) const;
     Id widen(Id node, RandomStream& stream);
     Id add_listed(Id node);
+    bool has_edge(Id node, const std::byte* action) const;
     Id choose_edge(Id node);
     // 0: the node has no edge that a trial has ended on.
     Id best_edge(Id node) const;

@@ -56,6 +56,7 @@ bool Uct::value_by_network(BudgetMeter& meter) {
             for (std::size_t k = 0; k < count; ++k) {
                 Node& node = tree().node(new_nodes_[first + k]);
                 node.is_open = true;
+                node.is_locked = node.step >= end_;
                 node.draws = 1;
                 node.value = judged_values_[k];
                 if (new_nodes_[first + k] == root_) note_return(node.value);

@@ -37,7 +37,9 @@ struct Node {
     bool is_open = false;     // its edges have values
     bool is_asked = false;    // its value is on the way
     bool has_priors = false;  // its edges have priors
-    bool is_locked = false;   // whatever is done, the state and the reward stay: the value is exact
+    // No trial goes on from here: whatever is done, the state and the reward stay, so that the
+    // value is exact; or the search ends, and the value is that of a network.
+    bool is_locked = false;
 };
 
 // An action in a state.

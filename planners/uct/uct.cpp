@@ -160,8 +160,12 @@ void Uct::choose_memory(const DecisionPoint& point) {
     end_ = point.left <= depth                      ? step_ + point.left
            : memory->end >= step_ + (depth + 1) / 2 ? std::min(memory->end, step_ + depth)
                                                     : step_ + depth;
-    if (end_ != memory->end) memory->tree.clear();
+    if (end_ != memory->end) {
+        memory->tree.clear();
+        memory->deepest = 0;
+    }
     memory->end = end_;
+    goes_on_ = state_values_ && end_ < step_ + point.left;
 }
 
 bool Uct::open_root(const DecisionPoint& point, RandomStream& stream, BudgetMeter& meter) {
@@ -361,7 +365,7 @@ void Uct::follow(std::size_t k, RandomStream& stream, std::int64_t step) {
     hop.reward = trees_.reward(k);
     const std::byte* const state = states_.data() + k * state_size_;
     NodeId next = Tree::over;
-    if (trees_.is_running(k) && step < end_) {
+    if (trees_.is_running(k) && (step < end_ || goes_on_)) {
         const NodeId* const known = tree().find(keys_[k]);
         if (known) {
             next = *known;
@@ -395,6 +399,8 @@ bool Uct::is_full(EdgeId edge) const {
 
 void Uct::back_up(const Trial& trial) {
     double rest = tree().node(trial.node).value;
+    memory_->deepest =
+        std::max(memory_->deepest, step_ + static_cast<std::int64_t>(trial.hops.size()));
     for (std::size_t h = trial.hops.size(); h-- > 0;) {
         const Trial::Hop& hop = trial.hops[h];
         tree().back_up(hop.node, hop.edge, hop.outcome, hop.reward, rest);
@@ -453,10 +459,16 @@ EdgeId Uct::search(const DecisionPoint& point, RandomStream& stream, BudgetMeter
     const bool is_open = open_root(point, stream, meter);
     const Node& root = tree().node(root_);
     if (is_open && !root.is_locked && root.edge_count > 1)
-        while (meter.has_room(static_cast<std::int64_t>(trials_.size()) * (end_ - step_), 0) &&
-               memory_->bytes() <= most_bytes_ && run_trials(point, stream, meter)) {
+        while (
+            meter.has_room(static_cast<std::int64_t>(trials_.size()) * steps_of_next_trial(), 0) &&
+            memory_->bytes() <= most_bytes_ && run_trials(point, stream, meter)) {
         }
     return best_edge();
+}
+
+// At most: a trial ends one step behind all that were made before.
+std::int64_t Uct::steps_of_next_trial() const {
+    return std::min(end_, std::max(memory_->deepest, step_) + 1) - step_;
 }
 
 // Keeps what the next decision may use, if it is small enough.

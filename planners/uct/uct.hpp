@@ -51,6 +51,7 @@ class Uct : public Planner {
         Tree tree;
         DeterminisedProblem determinised;
         std::int64_t end = 0;         // the step that the tree looks ahead to
+        std::int64_t deepest = 0;     // the step that trials have come to
         std::int64_t leaf_depth = 0;  // steps by which a policy values a new state, at most
         std::size_t bytes() const { return tree.bytes() + determinised.bytes(); }
     };
@@ -58,6 +59,7 @@ class Uct : public Planner {
     bool is_determinised() const { return initial_ == Initial::Determinised; }
     void choose_memory(const DecisionPoint& point);
     void choose_lookahead(BudgetMeter& meter);
+    std::int64_t steps_of_next_trial() const;
     EdgeId search(const DecisionPoint& point, RandomStream& stream, BudgetMeter& meter);
     void keep_below(EdgeId edge);
     Tree& tree() { return memory_->tree; }
@@ -133,11 +135,12 @@ class Uct : public Planner {
     Initial initial_;
     Futures trees_;  // trials
     Continuations continuations_;
-    std::vector<BasePolicy> policies_;           // that may play on
-    std::size_t policy_ = 0;                     // that does
-    solvers::ActionPriors priors_;               // of the user's policy; may be empty
-    solvers::StateValues state_values_;          // of Initial::Value
-    std::optional<Futures> judged_;              // new nodes, for these two
+    std::vector<BasePolicy> policies_;   // that may play on
+    std::size_t policy_ = 0;             // that does
+    solvers::ActionPriors priors_;       // of the user's policy; may be empty
+    solvers::StateValues state_values_;  // of Initial::Value
+    bool goes_on_ = false;           // the network values what comes after the end of the search
+    std::optional<Futures> judged_;  // new nodes, for these two
     std::optional<TypicalSteps> typical_steps_;  // of Initial::Determinised
     std::size_t most_bytes_, most_kept_bytes_;   // of a memory: in a decision, and after it
     EpisodeMemories<Memory> memories_;

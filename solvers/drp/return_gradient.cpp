@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace rddlc::solvers {
 
@@ -123,7 +124,10 @@ std::size_t ReturnGradient::play(std::span<Moments> seen, const Stops& stops) {
             for (std::size_t f = 0; f < width && alive[k] != 0; ++f)
                 seen[f].add(static_cast<double>(features_[k * width + f]) -
                             static_cast<double>(model_.normaliser.means[f]));
-            if (derivatives_.has_failed(k) || !std::isfinite(reward[k])) alive[k] = 0;
+            if (alive[k] != 0 && (derivatives_.has_failed(k) || !std::isfinite(reward[k]))) {
+                alive[k] = 0;
+                returns_[k] = std::numeric_limits<double>::quiet_NaN();
+            }
             reward_weight_[t][k] = alive[k] * discount;
             if (alive[k] != 0) returns_[k] += discount * reward[k];
             steps_ += alive[k] != 0;

@@ -377,8 +377,9 @@ std::shared_ptr<const PpoModel> read(const rddl_simulator& simulator, std::strin
         read_gru(json.at("recurrent"), model->memory,
                  model->parameters.data() + model->memory_begin());
     if (json.contains("values")) {
+        if (model->solver != "ppo") throw Failure("only policies of PPO have values");
         const Json& values = json.at("values");
-        model->value_scale = real_number(values.at("scale"), "scale of values", 0, 1e300);
+        model->value_scale = real_number(values.at("scale"), "scale of values", 0, 1e30);
         model->value_discount = real_number(values.at("discount"), "discount of values", 0, 1);
     }
     const std::vector<float> deviations =

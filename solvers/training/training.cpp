@@ -171,6 +171,10 @@ class Training {
         return std::min(1.0, std::max(trainee_.part_done(), elapsed() / options_.seconds));
     }
 
+    std::int64_t evaluations_due() const {
+        return static_cast<std::int64_t>(part_done() * static_cast<double>(options_.evaluations));
+    }
+
     // The work after an update. A run that was interrupted meanwhile does it when it is resumed.
     void finish_update() {
         const bool due = part_done() >= static_cast<double>(evaluations_ + 1) /
@@ -207,8 +211,7 @@ class Training {
         const Summary summary = summary_of(rollouts);
         evaluated_ = true;
         evaluated_at_ = trainee_.steps();
-        evaluations_ =
-            static_cast<std::int64_t>(part_done() * static_cast<double>(options_.evaluations));
+        evaluations_ = evaluations_due();
         last_return_ = summary.undiscounted_return.mean;
         last_length_ = summary.length.mean;
         result_.episodes = summary.episodes;
@@ -337,6 +340,8 @@ class Training {
             std::string learner;
             archive(learner);
             trainee_.load(learner);
+            // A run that goes on for longer is evaluated in the part that is new.
+            evaluations_ = std::min(evaluations_, evaluations_due());
         } catch (const Failure& failure) {
             throw Failure(fmt::format("cannot resume from '{}': {}", path.string(), failure.what()),
                           failure.hint);

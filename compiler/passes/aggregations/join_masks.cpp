@@ -106,7 +106,7 @@ class Joining {
 
         // The row depends on these: the elements are the innermost loops without it.
         std::set<ir::VariableId> of_rows = free_variables_of(row_indices(image));
-        for (const ir::NodeId factor : factors) find_choices(factor, image.sources, image.choices);
+        for (const ir::NodeId factor : factors) find_choices(factor, variables, image.choices);
         for (const Choice& choice : image.choices)
             of_rows.merge(free_variables_of(std::span(&choice.value, 1)));
         auto first = variables.end();
@@ -178,19 +178,26 @@ class Joining {
             [&](ir::VariableId variable) { return contains(variables, variable); });
     }
 
-    // Indices into constant tables that the step computes, whatever the sources are.
-    void find_choices(ir::NodeId id, const Variables& sources, std::vector<Choice>& choices) const {
+    bool depends_on_none_but(ir::NodeId id, const Variables& variables) const {
+        return std::ranges::all_of(
+            builder_.properties(id).free_variables,
+            [&](ir::VariableId variable) { return contains(variables, variable); });
+    }
+
+    // Indices into constant tables that the step computes, whatever the sources are: `loops` alone
+    // bind what they depend on.
+    void find_choices(ir::NodeId id, const Variables& loops, std::vector<Choice>& choices) const {
         const auto* load = std::get_if<ir::Load>(&program_[id].form);
         if (load && program_[load->buffer].storage == ir::Storage::Constant) {
             for (std::size_t axis = 0; axis < load->indices.size(); ++axis) {
                 const ir::NodeId index = load->indices[axis];
-                if (!builder_.properties(index).uniform && !depends_on(index, sources) &&
+                if (!builder_.properties(index).uniform && depends_on_none_but(index, loops) &&
                     !contains_value(choices, index))
                     choices.push_back({index, program_[load->buffer].shape[axis]});
             }
         }
         for (const ir::NodeId operand : ir::operands_of(program_[id]))
-            find_choices(operand, sources, choices);
+            find_choices(operand, loops, choices);
     }
     static bool contains_value(const std::vector<Choice>& choices, ir::NodeId value) {
         return std::ranges::find(choices, value, &Choice::value) != choices.end();
@@ -231,6 +238,14 @@ class Joining {
                ir::begins_with(program_, image.source.indices, {image.rows, nullptr});
     }
 
+    // Not by their product, which may be too great for an int.
+    bool can_be_evaluated(const Variables& variables) const {
+        std::int64_t left = most_evaluations;
+        for (const ir::VariableId variable : variables)
+            left /= std::max<std::int64_t>(1, program_[variable].size);
+        return left > 0;
+    }
+
     // A row for each combination of choices, with a mask of elements for each source: for one row
     // of the tables, or for all of them, each with its own bits.
     std::optional<ir::BufferId> masks_of(const Image& image, bool of_all_rows, Span span) {
@@ -245,7 +260,7 @@ class Joining {
         variables.insert(variables.end(), image.sources.begin(), image.sources.end());
         shape.push_back(ir::combinations(program_, image.sources));
         variables.insert(variables.end(), image.elements.begin(), image.elements.end());
-        if (ir::combinations(program_, variables) > most_evaluations) return std::nullopt;
+        if (!can_be_evaluated(variables)) return std::nullopt;
 
         ir::NodeId related = builder_.constant(true);
         for (const ir::NodeId factor : image.relation)

@@ -341,8 +341,8 @@ class Visiting {
                                    [&](ir::NodeId operand) { return reads_inputs_alone(operand); });
     }
 
-    // A visit has one mark. It joins the first one of the same entries behind all that mark the
-    // same table otherwise.
+    // A visit has one mark. It joins the first one of the same table and the same entries behind
+    // all that mark the same table otherwise.
     void add(Together& together, ir::Visit visit) {
         auto first = together.visits.begin();
         const auto contradicts = [&](const ir::Mark& mark) {
@@ -355,7 +355,8 @@ class Visiting {
             return each.entries ? std::optional(each.entries->rows) : std::nullopt;
         };
         const auto same = std::find_if(first, together.visits.end(), [&](const ir::Visit& each) {
-            return rows_of(each) == rows_of(visit);
+            return table_of(each.condition) == table_of(visit.condition) &&
+                   rows_of(each) == rows_of(visit);
         });
         if (same == together.visits.end()) return together.visits.push_back(std::move(visit));
         std::map<ir::NodeId, ir::NodeId> renamed{

@@ -75,7 +75,9 @@ class CounterSearch {
             if (!constant) return std::nullopt;
             value = std::get<std::int64_t>(constant->value);
             range = join(range, Range{static_cast<double>(value), static_cast<double>(value)});
-            if (range.upper - range.lower > most_values) return std::nullopt;
+            if (range.upper - range.lower > most_values || range.lower <= -exact_ints ||
+                range.upper >= exact_ints)
+                return std::nullopt;
         }
         return range;
     }

@@ -74,11 +74,12 @@ TEST(JoinMasks, HasTheBitsOfAFewRowsInOneInt) {
 TEST(JoinMasks, LeavesOthers) {
     const char* const places = "at(a1, b2); at(a2, b1);";
     for (const char* const body :
-         {"at(?a, ?y) ^ LEADS(@red, ?y, ?x)",                     // nothing chooses
-          "at(?a, ?y) ^ LEADS(go(?a), ?y, ?x) ^ free(?x)",        // the state decides
-          "free(?y) ^ LEADS(go(?a), ?y, ?x)",                     // many are true
-          "at(?a, ?y) ^ LEADS(go(?a), ?y, ?x) ^ Bernoulli(0.5)",  // a draw
-          "at(?a, ?x) ^ LEADS(go(?a), ?y, ?x)"}) {                // of no other place
+         {"at(?a, ?y) ^ LEADS(@red, ?y, ?x)",                         // nothing chooses
+          "at(?a, ?y) ^ (forall_{?b : pair} LEADS(go(?b), ?y, ?x))",  // nor for all of a row
+          "at(?a, ?y) ^ LEADS(go(?a), ?y, ?x) ^ free(?x)",            // the state decides
+          "free(?y) ^ LEADS(go(?a), ?y, ?x)",                         // many are true
+          "at(?a, ?y) ^ LEADS(go(?a), ?y, ?x) ^ Bernoulli(0.5)",      // a draw
+          "at(?a, ?x) ^ LEADS(go(?a), ?y, ?x)"}) {                    // of no other place
         const ir::Program program = without_colors(road(
             "pair, obj", "at'(?a, ?x) = exists_{?y : obj} [" + std::string(body) + "];", places));
         passes::Report report;
