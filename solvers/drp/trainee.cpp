@@ -30,6 +30,7 @@ Trainee drp_trainee(const rddl_simulator& simulator, const DrpOptions& options,
     trainee.steps = [=] {
         return trainer->progress().steps;
     };
+    trainee.is_evaluated_by_time = true;
     trainee.part_done = [=] {
         return std::min(1.0, static_cast<double>(trainer->progress().steps) / total);
     };

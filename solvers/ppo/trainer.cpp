@@ -75,11 +75,11 @@ void shuffle(std::vector<std::uint32_t>& order, std::uint64_t seed, std::uint64_
 PpoModel model_that_fits(const rddl_simulator& simulator, PpoOptions& options) {
     const ObservationSpace observations = observation_space(simulator, options.observations);
     const ActionSpace actions = action_space(simulator, options.stops);
-    if (!options.log_deviation)
-        options.log_deviation = first_log_deviation(simulator, observations, actions, options);
     PpoModel model = model_without_parameters(observations, actions, options);
     if (options.shortens_rollout) options.rollout = fitting_rollout(simulator, model, options);
     require_memory(simulator, model, options);
+    if (!options.log_deviation)
+        options.log_deviation = first_log_deviation(simulator, observations, actions, options);
     make_parameters(model, options);
     return model;
 }

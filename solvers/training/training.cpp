@@ -164,10 +164,10 @@ class Training {
         return !result_.interrupted;
     }
 
-    // The part of the work that ends the run, or of its time: a run that its time ends is evaluated
-    // as often as others. Ranks evaluate together, and their clocks differ.
+    // Ranks evaluate together, and their clocks differ.
     double part_done() const {
-        if (options_.seconds <= 0 || options_.ranks.count > 1) return trainee_.part_done();
+        if (!trainee_.is_evaluated_by_time || options_.seconds <= 0 || options_.ranks.count > 1)
+            return trainee_.part_done();
         return std::min(1.0, std::max(trainee_.part_done(), elapsed() / options_.seconds));
     }
 

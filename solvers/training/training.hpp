@@ -31,6 +31,9 @@ struct Trainee {
     std::string note;         // what it has chosen that users may not expect, or ""
     std::string advice;       // what to try if the policy is no better than no-op or random
     bool ends_early = false;  // update() does where TrainingOptions::stops says so
+    // A run that its time ends is evaluated as often as others; if it is resumed with more time, it
+    // is not the run that it would have been without an end.
+    bool is_evaluated_by_time = false;
     // The first work of a new run. Returns a message about it; may be empty.
     std::function<std::string()> prepare = {};
     std::function<void()> update;         // a little more work
