@@ -400,6 +400,27 @@ bool is_lazy(const Program& program, const Select& select, const Properties& the
     return !is_droppable(else_properties) || !is_guarded_product(program, select);
 }
 
+bool depends_on_any(const Properties& properties, std::span<const VariableId> variables) {
+    return std::ranges::any_of(variables, [&](VariableId variable) {
+        return std::ranges::binary_search(properties.free_variables, variable);
+    });
+}
+
+bool depends_on_none_but(const Properties& properties, std::span<const VariableId> variables) {
+    return std::ranges::all_of(properties.free_variables, [&](VariableId variable) {
+        return std::ranges::find(variables, variable) != variables.end();
+    });
+}
+
+std::vector<NodeId> conjuncts_of(const Program& program, NodeId id) {
+    const auto* apply = std::get_if<Apply>(&program[id].form);
+    if (!apply || apply->op != Operator::And) return {id};
+    std::vector<NodeId> all;
+    for (const NodeId operand : apply->operands)
+        std::ranges::copy(conjuncts_of(program, operand), std::back_inserter(all));
+    return all;
+}
+
 std::vector<NodeId> operands_of(const Node& node) {
     const auto with_place = [](const std::optional<Place>& place, std::vector<NodeId> operands) {
         if (place) operands.push_back(place->index);

@@ -58,6 +58,11 @@ std::vector<NodeId> operands_of(const Node& node);
 std::optional<Place> place_of(const Node& node);
 // The buffer that a node itself reads (Load, Search, Bits, Union, Element, Interval).
 std::optional<BufferId> buffer_read_by(const Node& node);
+// Whether one of these is among the variables that a value depends on; whether no other one is.
+bool depends_on_any(const Properties& properties, std::span<const VariableId> variables);
+bool depends_on_none_but(const Properties& properties, std::span<const VariableId> variables);
+// The parts of a conjunction, which may be one alone.
+std::vector<NodeId> conjuncts_of(const Program& program, NodeId id);
 // The variable that a node binds in its body (Reduce, DiscreteOver).
 std::optional<VariableId> bound_variable(const Node& node);
 

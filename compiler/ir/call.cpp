@@ -83,4 +83,14 @@ std::span<const std::int64_t> axes_of(const Program& program, const TableView& v
     return std::span(program[view.buffer].shape).subspan(view.indices.size());
 }
 
+bool is_known_before(const Program& program, NodeId id, const std::set<BufferId>& filled) {
+    const Node& node = program[id];
+    const auto buffer = buffer_read_by(node);
+    if (std::holds_alternative<Local>(node.form) || (buffer && filled.contains(*buffer)))
+        return false;
+    return std::ranges::all_of(operands_of(node), [&](NodeId operand) {
+        return is_known_before(program, operand, filled);
+    });
+}
+
 }  // namespace rddlc::ir

@@ -45,6 +45,9 @@ std::vector<BufferId> written_buffers(const Call& call);
 // The buffers that the stores and calls of a block change, those of nested loops included.
 std::set<BufferId> written_buffers(const Block& block);
 bool overwrites_inputs(const Callee& callee);
+// Whether a value can be computed before a block that fills these buffers: it neither reads one nor
+// is made of a local value.
+bool is_known_before(const Program& program, NodeId id, const std::set<BufferId>& filled);
 
 // The dimensions of a view that have no index: what the function gets. Empty for one element.
 std::span<const std::int64_t> axes_of(const Program& program, const TableView& view);

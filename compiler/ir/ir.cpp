@@ -20,7 +20,7 @@ std::int64_t Buffer::row_size(std::size_t leading) const {
 }
 
 std::int64_t Buffer::count() const {
-    return std::accumulate(shape.begin(), shape.end(), std::int64_t{1}, std::multiplies<>());
+    return row_size(0);
 }
 
 bool Program::partially_observed() const {

@@ -80,9 +80,7 @@ bool ends_with(const Program& program, const std::vector<NodeId>& indices, const
 }
 
 bool is_same_for_all(const Properties& properties, const Nest& nest) {
-    return properties.uniform && std::ranges::none_of(nest.variables, [&](VariableId variable) {
-               return std::ranges::binary_search(properties.free_variables, variable);
-           });
+    return properties.uniform && !depends_on_any(properties, nest.variables);
 }
 
 }  // namespace rddlc::ir

@@ -67,6 +67,16 @@ BufferId NewTables::scratch(const std::string& wish, Scalar scalar, std::optiona
     return add(std::move(table));
 }
 
+BufferId NewTables::list(const std::string& name, Scalar scalar, const std::vector<Value>& values,
+                         Span span) {
+    return constant({.name = name,
+                     .storage = Storage::Constant,
+                     .scalar = scalar,
+                     .shape = {std::ssize(values)},
+                     .values = values,
+                     .span = span});
+}
+
 BufferId NewTables::constant(Buffer table) {
     know_constants();
     std::optional<BufferId> first;

@@ -37,6 +37,9 @@ class NewTables {
     // A constant table like this one, if one exists; otherwise a new one. It gets the wished name
     // if that is free.
     BufferId constant(Buffer table);
+    // A constant of one dimension.
+    BufferId list(const std::string& name, Scalar scalar, const std::vector<Value>& values,
+                  Span span);
 
   private:
     void know_names();

@@ -168,15 +168,14 @@ void FunctionBody::over_several_objects(const ir::Loop& loop) {
                         tree::list(tree::word("context"), expressions_.record(few),
                                    expressions_.record(rows), expressions_.record(affected),
                                    expressions_.record(only_target(nest)), std::move(lambda)))});
-        expressions_.leave_nest();
-        return expressions_.return_to(before);
+    } else if (loop.as_words) {
+        statements_.push_back({tree::call("rddl::for_many_objects<" + count + ">",
+                                          tree::list(tree::word("context"), std::move(lambda)))});
+    } else {
+        statements_.push_back(
+            {tree::call("rddl::for_each_object",
+                        tree::list(tree::word("context"), tree::word(count), std::move(lambda)))});
     }
-    statements_.push_back({loop.as_words
-                               ? tree::call("rddl::for_many_objects<" + count + ">",
-                                            tree::list(tree::word("context"), std::move(lambda)))
-                               : tree::call("rddl::for_each_object",
-                                            tree::list(tree::word("context"), tree::word(count),
-                                                       std::move(lambda)))});
     expressions_.leave_nest();
     expressions_.return_to(before);
 }

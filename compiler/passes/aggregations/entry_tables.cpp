@@ -5,12 +5,7 @@
 namespace rddlc::passes {
 ir::BufferId EntryTables::table(const std::string& name, ir::Scalar scalar,
                                 const std::vector<ir::Value>& values, Span span) {
-    return tables_.constant({.name = name,
-                             .storage = ir::Storage::Constant,
-                             .scalar = scalar,
-                             .shape = {std::ssize(values)},
-                             .values = values,
-                             .span = span});
+    return tables_.list(name, scalar, values, span);
 }
 
 ir::VariableId EntryTables::variable(std::int64_t count, std::size_t depth) {

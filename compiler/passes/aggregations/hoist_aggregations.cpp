@@ -118,7 +118,8 @@ class Hoisting {
         const double hoisted =
             entries * (properties.cost + cost_of_element) + evaluations * cost_of_element;
         return entries <= ir::most_new_elements &&
-               hoisted < worthwhile * evaluations * properties.cost && is_known_before(id);
+               hoisted < worthwhile * evaluations * properties.cost &&
+               ir::is_known_before(program_, id, filled_);
     }
 
     // It depends on outer loops alone.
@@ -137,16 +138,6 @@ class Hoisting {
             product *= static_cast<double>(program_[variable].size);
         }
         return product;
-    }
-
-    // Neither a local value nor what the statement itself computes is part of it.
-    bool is_known_before(ir::NodeId id) const {
-        const ir::Node& node = program_[id];
-        if (std::holds_alternative<ir::Local>(node.form)) return false;
-        const auto buffer = ir::buffer_read_by(node);
-        if (buffer && filled_.contains(*buffer)) return false;
-        return std::ranges::all_of(ir::operands_of(node),
-                                   [&](ir::NodeId operand) { return is_known_before(operand); });
     }
 
     // ---------------------------------------------------------------------------- making

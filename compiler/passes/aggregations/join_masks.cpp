@@ -6,6 +6,7 @@
 #include "ir/reduction_nest.hpp"
 #include "ir/rewrite.hpp"
 #include "passes/analyses/constant_values.hpp"
+#include "passes/analyses/few_true.hpp"
 
 #include <algorithm>
 #include <cstdint>
@@ -95,8 +96,7 @@ class Joining {
     std::optional<Image> image_of(const ir::Store& store, const Variables& variables) {
         const auto nest = ir::reduction_nest(program_, store.value);
         if (!nest || nest->op != Reduction::Exists || !is_plain(store.value)) return std::nullopt;
-        std::vector<ir::NodeId> factors;
-        collect_factors(nest->body, factors);
+        std::vector<ir::NodeId> factors = ir::conjuncts_of(program_, nest->body);
         const auto source =
             std::ranges::find_if(factors, [&](ir::NodeId each) { return is_source(each, *nest); });
         if (source == factors.end()) return std::nullopt;
@@ -121,27 +121,14 @@ class Joining {
 
     // Neither a draw nor a fault, nor what the definition itself computes, is part of it.
     bool is_plain(ir::NodeId id) const {
-        return ir::is_droppable(builder_.properties(id)) && is_known_before(id);
+        return ir::is_droppable(builder_.properties(id)) &&
+               ir::is_known_before(program_, id, filled_);
     }
-    bool is_known_before(ir::NodeId id) const {
-        const ir::Node& node = program_[id];
-        const auto buffer = ir::buffer_read_by(node);
-        if (std::holds_alternative<ir::Local>(node.form) || (buffer && filled_.contains(*buffer)))
-            return false;
-        return std::ranges::all_of(ir::operands_of(node),
-                                   [&](ir::NodeId operand) { return is_known_before(operand); });
-    }
-
-    void collect_factors(ir::NodeId id, std::vector<ir::NodeId>& factors) const {
-        const auto* apply = std::get_if<ir::Apply>(&program_[id].form);
-        if (!apply || apply->op != Operator::And) return factors.push_back(id);
-        for (const ir::NodeId operand : apply->operands) collect_factors(operand, factors);
-    }
-
     // An element of the state whose last indices are all variables of the aggregation.
     bool is_source(ir::NodeId id, const ir::ReductionNest& nest) const {
         const auto* load = std::get_if<ir::Load>(&program_[id].form);
-        if (!load || !is_few(load->buffer) || load->indices.size() < nest.variables.size() ||
+        if (!load || !begins_with_few_true(program_[load->buffer], least_per_true) ||
+            load->indices.size() < nest.variables.size() ||
             !ir::ends_with(program_, load->indices, {nest.variables, nullptr}))
             return false;
         const std::size_t leading = load->indices.size() - nest.variables.size();
@@ -152,13 +139,6 @@ class Joining {
                                return builder_.properties(index).uniform &&
                                       !depends_on(index, nest.variables);
                            });
-    }
-    bool is_few(ir::BufferId id) const {
-        const ir::Buffer& buffer = program_[id];
-        if (buffer.storage != ir::Storage::State || buffer.scalar != ir::Scalar::Bool) return false;
-        const std::vector<ir::Value> values = buffer.values.dense();
-        const std::int64_t count = std::ranges::count(values, ir::Value(true));
-        return count > 0 && count * least_per_true <= std::ssize(values);
     }
     static std::span<const ir::NodeId> row_indices(const Image& image) {
         return std::span(image.source.indices)
@@ -173,15 +153,7 @@ class Joining {
         return variables;
     }
     bool depends_on(ir::NodeId id, const Variables& variables) const {
-        return std::ranges::any_of(
-            builder_.properties(id).free_variables,
-            [&](ir::VariableId variable) { return contains(variables, variable); });
-    }
-
-    bool depends_on_none_but(ir::NodeId id, const Variables& variables) const {
-        return std::ranges::all_of(
-            builder_.properties(id).free_variables,
-            [&](ir::VariableId variable) { return contains(variables, variable); });
+        return ir::depends_on_any(builder_.properties(id), variables);
     }
 
     // Indices into constant tables that the step computes, whatever the sources are: `loops` alone
@@ -191,7 +163,8 @@ class Joining {
         if (load && program_[load->buffer].storage == ir::Storage::Constant) {
             for (std::size_t axis = 0; axis < load->indices.size(); ++axis) {
                 const ir::NodeId index = load->indices[axis];
-                if (!builder_.properties(index).uniform && depends_on_none_but(index, loops) &&
+                if (const ir::Properties& properties = builder_.properties(index);
+                    !properties.uniform && ir::depends_on_none_but(properties, loops) &&
                     !contains_value(choices, index))
                     choices.push_back({index, program_[load->buffer].shape[axis]});
             }

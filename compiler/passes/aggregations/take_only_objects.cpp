@@ -106,8 +106,7 @@ class Indexing {
     }
 
     bool depends_on_any(ir::NodeId id, std::span<const ir::VariableId> variables) const {
-        return std::ranges::any_of(
-            variables, [&](ir::VariableId variable) { return depends_on(id, variable); });
+        return ir::depends_on_any(builder_.properties(id), variables);
     }
 
     bool depends_on(ir::NodeId id, ir::VariableId variable) const {

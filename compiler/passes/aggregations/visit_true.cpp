@@ -9,6 +9,7 @@
 #include "ir/rewrite.hpp"
 #include "passes/aggregations/entry_tables.hpp"
 #include "passes/analyses/bool_words.hpp"
+#include "passes/analyses/few_true.hpp"
 #include "passes/analyses/sparsity_pattern.hpp"
 
 #include <algorithm>
@@ -178,8 +179,7 @@ class Visiting {
         if (variables.size() != 2 || properties.may_fault || properties.random ||
             !is_known_before(nest->body))
             return std::nullopt;
-        Factors factors;
-        collect_factors(nest->body, factors);
+        Factors factors = ir::conjuncts_of(program_, nest->body);
         const auto few =
             std::ranges::find_if(factors, [&](ir::NodeId each) { return is_few(each); });
         if (few == factors.end() || !reads_large_table(nest->body)) return std::nullopt;
@@ -222,8 +222,7 @@ class Visiting {
         if (!ir::is_droppable(builder_.properties(id)) || !is_known_before(id) ||
             program_[object].size <= bools_in_a_word)
             return std::nullopt;
-        Factors factors;
-        collect_factors(id, factors);
+        Factors factors = ir::conjuncts_of(program_, id);
         const auto few = std::ranges::find_if(factors, [&](ir::NodeId each) {
             return is_few(each) && visited_.contains(table_of(each)) &&
                    builder_.properties(each).free_variables == std::vector{object};
@@ -243,22 +242,12 @@ class Visiting {
         return index && index->variable == variable;
     }
 
-    void collect_factors(ir::NodeId id, Factors& factors) const {
-        const auto* apply = std::get_if<ir::Apply>(&program_[id].form);
-        if (!apply || apply->op != Operator::And) return factors.push_back(id);
-        for (const ir::NodeId operand : apply->operands) collect_factors(operand, factors);
-    }
-
     bool is_few(ir::NodeId id) const {
         const auto* load = std::get_if<ir::Load>(&program_[id].form);
         if (!load || load->indices.size() != 1 ||
             !std::holds_alternative<ir::Index>(program_[load->indices[0]].form))
             return false;
-        const ir::Buffer& buffer = program_[load->buffer];
-        if (buffer.storage != ir::Storage::State || buffer.scalar != ir::Scalar::Bool) return false;
-        const std::vector<ir::Value> values = buffer.values.dense();
-        const std::int64_t count = std::ranges::count(values, ir::Value(true));
-        return count > 0 && count * least_per_true <= std::ssize(values);
+        return begins_with_few_true(program_[load->buffer], least_per_true);
     }
 
     // A table that loops over many bools do not look up.
@@ -281,13 +270,12 @@ class Visiting {
 
     // Neither a value that the definition itself computes nor another aggregation is part of it.
     bool is_known_before(ir::NodeId id) const {
-        const ir::Node& node = program_[id];
-        const auto buffer = ir::buffer_read_by(node);
-        if (std::holds_alternative<ir::Local>(node.form) || ir::bound_variable(node) ||
-            (buffer && filled_.contains(*buffer)))
-            return false;
-        return std::ranges::all_of(ir::operands_of(node),
-                                   [&](ir::NodeId operand) { return is_known_before(operand); });
+        return ir::is_known_before(program_, id, filled_) && !has_aggregation(id);
+    }
+    bool has_aggregation(ir::NodeId id) const {
+        return ir::bound_variable(program_[id]) ||
+               std::ranges::any_of(ir::operands_of(program_[id]),
+                                   [&](ir::NodeId operand) { return has_aggregation(operand); });
     }
 
     // Then the pairs of which it does not hold are left out.

@@ -63,7 +63,7 @@ class Separation {
         };
         const ObjectLanes several = several_of(nest, is_one);
         const auto is_computed_before = [&](ir::NodeId id) {
-            return is_one(id) || is_over_none(builder_.properties(id), nest.variables);
+            return is_one(id) || !ir::depends_on_any(builder_.properties(id), nest.variables);
         };
         if (cost_of_rest(store->value, is_computed_before) < worth_separating ||
             !several.are_enough(program_[store->target].scalar) || !several.can_store(*store) ||
@@ -120,15 +120,7 @@ class Separation {
     // A table of these variables can hold it: nothing else around it, such as the draw of an object
     // (DiscreteOver), binds what it depends on.
     static bool is_over(const ir::Properties& properties, const Variables& variables) {
-        return std::ranges::all_of(properties.free_variables, [&](ir::VariableId variable) {
-            return std::ranges::find(variables, variable) != variables.end();
-        });
-    }
-
-    static bool is_over_none(const ir::Properties& properties, const Variables& variables) {
-        return std::ranges::none_of(properties.free_variables, [&](ir::VariableId variable) {
-            return std::ranges::find(variables, variable) != variables.end();
-        });
+        return ir::depends_on_none_but(properties, variables);
     }
 
     // ---------------------------------------------------------------------------- terms of sums

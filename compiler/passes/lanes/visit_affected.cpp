@@ -4,6 +4,7 @@
 #include "ir/nest.hpp"
 #include "ir/rewrite.hpp"
 #include "passes/analyses/bool_words.hpp"
+#include "passes/analyses/few_true.hpp"
 
 #include <algorithm>
 #include <cstdint>
@@ -62,12 +63,8 @@ class Affecting {
 
     bool is_few(ir::BufferId id, const ir::Nest& nest) const {
         const ir::Buffer& buffer = program_[id];
-        if (buffer.storage != ir::Storage::State || buffer.scalar != ir::Scalar::Bool ||
-            buffer.count() != ir::combinations(program_, nest.variables))
-            return false;
-        const std::vector<ir::Value> values = buffer.values.dense();
-        const std::int64_t count = std::ranges::count(values, ir::Value(true));
-        return count > 0 && count * least_per_true <= std::ssize(values);
+        return buffer.count() == ir::combinations(program_, nest.variables) &&
+               begins_with_few_true(buffer, least_per_true);
     }
 
     // An object's own element, or one that its place chooses.
@@ -126,17 +123,8 @@ class Affecting {
         }
         begins.emplace_back(std::ssize(objects));
         const std::string name = program_[few].name + "-affects";
-        return {few, table(name + "-rows", std::move(begins), span),
-                table(name, std::move(objects), span)};
-    }
-    ir::BufferId table(const std::string& name, std::vector<ir::Value> values, Span span) {
-        const auto size = std::ssize(values);
-        return builder_.tables().constant({.name = name,
-                                           .storage = ir::Storage::Constant,
-                                           .scalar = ir::Scalar::Int,
-                                           .shape = {size},
-                                           .values = std::move(values),
-                                           .span = span});
+        return {few, builder_.tables().list(name + "-rows", ir::Scalar::Int, begins, span),
+                builder_.tables().list(name, ir::Scalar::Int, objects, span)};
     }
 
     ir::Program program_;
