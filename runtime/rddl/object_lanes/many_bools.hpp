@@ -8,6 +8,7 @@
 #include <rddl/lanes/pack.hpp>
 #include <rddl/lanes/simd.hpp>
 #include <rddl/lanes/simd_bytes.hpp>
+#include <rddl/values/bits.hpp>
 
 #include <array>
 #include <cstddef>
@@ -237,13 +238,10 @@ template <class T>
 constexpr std::int64_t element_of(const T& number, std::size_t) {
     return static_cast<std::int64_t>(number);
 }
-template <class T>
-inline constexpr std::size_t count_in = 1;
-template <class T, std::size_t n>
-inline constexpr std::size_t count_in<std::array<T, n>> = n* count_in<T>;
 template <class T, std::size_t n>
 constexpr std::int64_t element_of(const std::array<T, n>& table, std::size_t i) {
-    return element_of(table[i / count_in<T>], i % count_in<T>);
+    constexpr auto count = static_cast<std::size_t>(rddl::detail::element_count<T>);
+    return element_of(table[i / count], i % count);
 }
 
 template <class Places>
@@ -269,7 +267,8 @@ inline constexpr std::int64_t most_places_in_lines = 4096;
 // The lines of a table of places, for registers of `width` objects.
 template <const auto& places, int width>
 inline constexpr auto lines_of_places = [] {
-    constexpr std::size_t count = many_bools::count_in<std::remove_cvref_t<decltype(places)>>;
+    constexpr auto count =
+        static_cast<std::size_t>(detail::element_count<std::remove_cvref_t<decltype(places)>>);
     std::array<PlaceLine, (count + width - 1) / width> lines{};
     for (std::size_t k = 0; k < lines.size(); ++k) {
         const std::size_t end = (k + 1) * width;

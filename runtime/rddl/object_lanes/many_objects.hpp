@@ -283,7 +283,7 @@ RDDL_INLINE void for_affected_objects(Context<ScalarOf<R>>& context, const Few& 
                                       const auto& rows, const auto& objects, Table& target,
                                       Body&& body) {
     constexpr int most_true = static_cast<int>(count / 16);
-    const auto words = words_of_bools<static_cast<std::size_t>(count)>(detail::first_element(few));
+    const auto words = words_of(few);
     int true_count = 0;
     for (const std::uint64_t bits : words) true_count += __builtin_popcountll(bits);
     if (true_count > most_true) return for_many_objects<count>(context, body);

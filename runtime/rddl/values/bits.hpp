@@ -31,9 +31,7 @@ constexpr auto first_element(std::array<T, n>& table) {
     return first_element(table[0]);
 }
 template <class T>
-inline constexpr Index element_count = 1;
-template <class T, std::size_t n>
-inline constexpr Index element_count<std::array<T, n>> = static_cast<Index>(n) * element_count<T>;
+inline constexpr Index element_count = Nested<T>::count;
 
 // Whether the bools may have been stored just now matters to one environment's (simd.hpp).
 template <int count, bool just_stored>
@@ -64,16 +62,16 @@ auto bits(const Table& table) {
     return detail::bits_of<static_cast<int>(count), just_stored>(detail::first_element(table) +
                                                                  first);
 }
-// All elements, 64 in each word.
-template <std::size_t n>
-RDDL_INLINE std::array<std::uint64_t, (n + 63) / 64> words_of_bools(const bool* bools) {
-    return [bools]<std::size_t... word>(std::index_sequence<word...>) RDDL_INLINE_LAMBDA {
-        constexpr std::size_t rest = n % 64 == 0 ? 64 : n % 64;
-        return std::array<std::uint64_t, sizeof...(word)>{static_cast<std::uint64_t>(
-            detail::bits_of < word + 1 < sizeof...(word) ? 64 : static_cast<int>(rest),
-            true > (bools + 64 * word))...};
+// All elements of a table of one environment, 64 in each word.
+template <class Table>
+RDDL_INLINE auto words_of(const Table& table) {
+    constexpr std::size_t count =
+        (static_cast<std::size_t>(detail::element_count<Table>) + 63) / 64;
+    return [&table]<std::size_t... word>(std::index_sequence<word...>) RDDL_INLINE_LAMBDA {
+        return std::array<std::uint64_t, count>{
+            static_cast<std::uint64_t>(bits<Index{64 * word}>(table))...};
     }
-    (std::make_index_sequence<(n + 63) / 64>());
+    (std::make_index_sequence<count>());
 }
 // The bits of the caller's actions.
 template <Index first = 0, class Table>

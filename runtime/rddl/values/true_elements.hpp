@@ -101,7 +101,7 @@ struct TrueElements {
 };
 template <std::size_t n>
 RDDL_INLINE TrueElements<n> true_elements(const std::array<bool, n>& row) {
-    return {words_of_bools<n>(row.data())};
+    return {words_of(row)};
 }
 template <std::size_t n, int width>
 RDDL_INLINE const std::array<Mask<width>, n>& true_elements(const std::array<Mask<width>, n>& row) {
