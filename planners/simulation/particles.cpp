@@ -19,12 +19,19 @@ constexpr int most_tries = 16;
 // Where none agrees, or reals are observed, this part of them stays: the nearest ones.
 constexpr std::size_t nearest_share = 16;
 
+bool is_real(const RecordColumn& column) {
+    return column.scalar == RDDL_REAL;
+}
+
 }  // namespace
 
 Particles::Particles(const rddl_simulator& simulator, std::int64_t count, std::int64_t horizon)
     : simulator_(simulator),
       action_size_(static_cast<std::size_t>(simulator.problem->action_size)),
       observation_size_(static_cast<std::size_t>(simulator.problem->observation_size)),
+      columns_(record_columns(*simulator.problem, RDDL_OBSERVATION)),
+      ranges_(columns_.size()),
+      has_reals_(std::ranges::any_of(columns_, is_real)),
       particles_(batch_of_lanes(simulator, count, horizon)),
       steps_(batch_of_lanes(simulator, count, horizon)),
       found_(batch_of_lanes(simulator, count, horizon)),
@@ -33,18 +40,7 @@ Particles::Particles(const rddl_simulator& simulator, std::int64_t count, std::i
       sources_(seeds_.size()),
       distances_(seeds_.size()),
       actions_(seeds_.size() * action_size_),
-      observations_(seeds_.size() * observation_size_) {
-    for (std::int32_t f = 0; f < simulator.problem->fluent_count; ++f) {
-        const rddl_fluent& fluent = *rddl_fluent_at(simulator.problem, f);
-        if (fluent.role != RDDL_OBSERVATION) continue;
-        const std::size_t size = fluent.scalar == RDDL_BOOL ? 1 : 8;
-        for (std::int64_t g = 0; g < fluent.count; ++g)
-            columns_.push_back(
-                {static_cast<std::size_t>(fluent.offset) + static_cast<std::size_t>(g) * size,
-                 fluent.scalar, 0});
-        has_reals_ |= fluent.scalar == RDDL_REAL;
-    }
-}
+      observations_(seeds_.size() * observation_size_) {}
 
 void Particles::begin(RandomStream& stream) {
     for (std::uint64_t& seed : seeds_) seed = stream.bits();
@@ -92,34 +88,33 @@ void Particles::try_step(const std::byte* observation, RandomStream& stream) {
 
 void Particles::find_ranges() {
     if (!has_reals_) return;
-    for (Column& column : columns_) {
-        if (column.scalar != RDDL_REAL) continue;
+    for (std::size_t c = 0; c < columns_.size(); ++c) {
+        if (!is_real(columns_[c])) continue;
         double least = std::numeric_limits<double>::infinity(), most = -least;
         for (std::size_t k = 0; k < seeds_.size(); ++k) {
-            double value = 0;
-            std::memcpy(&value, observations_.data() + k * observation_size_ + column.offset, 8);
+            const double value =
+                real_at(observations_.data() + k * observation_size_ + columns_[c].offset);
             least = std::min(least, value);
             most = std::max(most, value);
         }
-        column.range = most - least;
+        ranges_[c] = most - least;
     }
 }
 
 // The number of values that differ; reals by their share of the range.
 double Particles::distance(const std::byte* one, const std::byte* other) const {
     double sum = 0;
-    for (const Column& column : columns_) {
+    for (std::size_t c = 0; c < columns_.size(); ++c) {
+        const RecordColumn& column = columns_[c];
         const std::byte *const a = one + column.offset, *const b = other + column.offset;
         if (column.scalar == RDDL_BOOL) {
             sum += *a == *b ? 0 : 1;
         } else if (column.scalar == RDDL_INT) {
             sum += std::memcmp(a, b, 8) == 0 ? 0 : 1;
         } else {
-            double x = 0, y = 0;
-            std::memcpy(&x, a, 8);
-            std::memcpy(&y, b, 8);
+            const double x = real_at(a), y = real_at(b);
             if (x == y) continue;
-            const double share = std::abs(x - y) / column.range;
+            const double share = std::abs(x - y) / ranges_[c];
             sum += share < 1 ? share : 1;  // also where it is no number
         }
     }

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "planners/simulation/random_stream.hpp"
+#include "planners/simulation/record_columns.hpp"
 #include "solvers/batches/batch.hpp"
 
 #include <rddl/simulator.h>
@@ -35,12 +36,6 @@ class Particles {
     bool is_lost() const { return is_lost_; }
 
   private:
-    // A value of an observation.
-    struct Column {
-        std::size_t offset;
-        rddl_scalar scalar;
-        double range;  // of a real, in the candidates
-    };
     void try_step(const std::byte* observation, RandomStream& stream);
     void find_ranges();
     double distance(const std::byte* one, const std::byte* other) const;
@@ -50,7 +45,8 @@ class Particles {
 
     const rddl_simulator& simulator_;
     std::size_t action_size_, observation_size_;
-    std::vector<Column> columns_;
+    std::vector<RecordColumn> columns_;  // of observations
+    std::vector<double> ranges_;         // of reals in the candidates, by column
     bool has_reals_ = false;
     // The particles; copies that make the step; and those of the latter that stay.
     solvers::BatchHandle particles_, steps_, found_;

@@ -19,28 +19,14 @@ double value_at(const std::byte* at, rddl_scalar scalar) {
         std::memcpy(&number, at, sizeof number);
         return static_cast<double>(number);
     }
-    double real = 0;
-    std::memcpy(&real, at, sizeof real);
-    return real;
-}
-
-std::size_t size_of(rddl_scalar scalar) {
-    return scalar == RDDL_BOOL ? 1 : 8;
+    return real_at(at);
 }
 
 }  // namespace
 
 StateCells::StateCells(const rddl_simulator& simulator)
-    : state_size_(static_cast<std::size_t>(simulator.problem->state_size)) {
-    for (std::int32_t f = 0; f < simulator.problem->fluent_count; ++f) {
-        const rddl_fluent& fluent = *rddl_fluent_at(simulator.problem, f);
-        if (fluent.role != RDDL_STATE) continue;
-        for (std::int64_t g = 0; g < fluent.count; ++g)
-            columns_.push_back({static_cast<std::size_t>(fluent.offset) +
-                                    static_cast<std::size_t>(g) * size_of(fluent.scalar),
-                                fluent.scalar});
-    }
-}
+    : state_size_(static_cast<std::size_t>(simulator.problem->state_size)),
+      columns_(record_columns(*simulator.problem, RDDL_STATE)) {}
 
 void StateCells::find(const std::byte* states, std::span<const std::uint8_t> wanted, double bins,
                       RandomStream& stream, std::vector<std::uint64_t>& cells) {
@@ -54,7 +40,7 @@ void StateCells::find(const std::byte* states, std::span<const std::uint8_t> wan
     }
 }
 
-void StateCells::divide(const Column& column, const std::byte* states,
+void StateCells::divide(const RecordColumn& column, const std::byte* states,
                         std::span<const std::uint8_t> wanted, double bins, RandomStream& stream,
                         std::vector<std::uint64_t>& cells) {
     const double offset = stream.unit();

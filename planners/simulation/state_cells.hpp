@@ -3,6 +3,7 @@
 #pragma once
 
 #include "planners/simulation/random_stream.hpp"
+#include "planners/simulation/record_columns.hpp"
 
 #include <rddl/simulator.h>
 
@@ -24,16 +25,13 @@ class StateCells {
               RandomStream& stream, std::vector<std::uint64_t>& cells);
 
   private:
-    struct Column {
-        std::size_t offset;
-        rddl_scalar scalar;
-    };
     // Divides the states by one value.
-    void divide(const Column& column, const std::byte* states, std::span<const std::uint8_t> wanted,
-                double bins, RandomStream& stream, std::vector<std::uint64_t>& cells);
+    void divide(const RecordColumn& column, const std::byte* states,
+                std::span<const std::uint8_t> wanted, double bins, RandomStream& stream,
+                std::vector<std::uint64_t>& cells);
 
     std::size_t state_size_;
-    std::vector<Column> columns_;
+    std::vector<RecordColumn> columns_;
     std::vector<double> values_;
 };
 

@@ -2,6 +2,7 @@
 
 #include "planners/planner/beliefs.hpp"
 #include "planners/simulation/record_hash.hpp"
+#include "planners/uct/search_rules.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -14,8 +15,6 @@ using solvers::require_done;
 namespace {
 
 constexpr std::int64_t usual_depth = 40;
-// An action is not chosen in the end if it was tried less than this part of the one tried most.
-constexpr double least_part_tried = 0.2;
 // The part of the memory limit that the tree of an episode may take.
 constexpr std::size_t memory_share = 32;
 // Deviations of actions near the best one, in half widths of bounds: one after the other.
@@ -93,10 +92,7 @@ void HistorySearch::open_root(const DecisionPoint& point) {
     memory_ = &*memory;
     step_ = point.step;
     const std::int64_t wanted = options_.horizon.value_or(usual_depth);
-    const std::int64_t end = point.left <= wanted ? step_ + point.left
-                             : memory->end >= step_ + (wanted + 1) / 2
-                                 ? std::min(memory->end, step_ + wanted)
-                                 : step_ + wanted;
+    const std::int64_t end = end_of_search(step_, point.left, wanted, memory->end);
     if (end != memory->end) tree().clear();
     memory->end = end;
     depth_ = end - step_;
@@ -202,8 +198,7 @@ void HistorySearch::follow(std::int64_t made, RandomStream& stream) {
         if (!futures_.is_running(k)) continue;
         const Id known = tree().find(key);
         const HistoryTree::Edge& of = tree().edge(edge);
-        const bool is_full = options_.outcomes > 0 &&
-                             of.outcomes >= std::ceil(options_.outcomes * std::sqrt(of.started));
+        const bool is_full = has_all_outcomes(options_, of.started, of.outcomes);
         if (known != 0) {
             trial.node = known;
         } else if (is_full) {
@@ -214,7 +209,7 @@ void HistorySearch::follow(std::int64_t made, RandomStream& stream) {
                                                   tree().state(trial.node), &step));
         } else {
             // A leaf: what follows is played by the policy.
-            tree().add_outcome(edge, tree().node_of(key, records_after_.data() + k * state_size_));
+            tree().add_outcome(edge, tree().node_of(key, record_after(k)));
             continue;
         }
         if (trial.node != 0) tree().add_outcome(edge, trial.node);
@@ -226,10 +221,13 @@ std::uint64_t HistorySearch::key_of_state(const std::byte* state, std::int64_t s
 }
 
 std::uint64_t HistorySearch::key_after(std::size_t lane, Id node, std::int64_t step) const {
-    if (sees_state_) return key_of_state(records_after_.data() + lane * state_size_, step);
+    if (sees_state_) return key_of_state(record_after(lane), step);
     return next_history(*simulator_.problem, tree().node(node).key,
-                        actions_.data() + lane * action_size_,
-                        records_after_.data() + lane * observation_size_);
+                        actions_.data() + lane * action_size_, record_after(lane));
+}
+
+const std::byte* HistorySearch::record_after(std::size_t lane) const {
+    return records_after_.data() + lane * (sees_state_ ? state_size_ : observation_size_);
 }
 
 // Time was up: the trials count for nothing.
@@ -327,7 +325,7 @@ HistorySearch::Id HistorySearch::best_edge(Id node) const {
     Id chosen = 0;
     for (Id e = tree().node(node).first_edge; e != 0; e = tree().edge(e).next) {
         const HistoryTree::Edge& edge = tree().edge(e);
-        if (edge.done == 0 || edge.done < least_part_tried * most) continue;
+        if (edge.done == 0 || edge.done < least_tried * most) continue;
         if (chosen == 0 || edge.value > tree().edge(chosen).value) chosen = e;
     }
     return chosen;

@@ -59,6 +59,8 @@ class HistorySearch : public Planner {
     std::uint64_t key_of_state(const std::byte* state, std::int64_t step) const;
     bool may_widen(Id node) const;
     Id widen(Id node, RandomStream& stream);
+    // The state after a step, or, where it is hidden, the observation.
+    const std::byte* record_after(std::size_t lane) const;
     Id add_listed(Id node);
     bool has_edge(Id node, const std::byte* action) const;
     Id choose_edge(Id node);

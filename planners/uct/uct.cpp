@@ -2,6 +2,10 @@
 #include "planners/uct/uct.hpp"
 
 #include "planners/simulation/random_stream.hpp"
+#include "planners/uct/search_rules.hpp"
+#include "support/failure.hpp"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -27,8 +31,6 @@ constexpr std::size_t policy_draws = 32;
 constexpr std::int64_t short_leaf = 2;
 // Draws for each action of the root.
 constexpr std::size_t root_draws = 8;
-// An action is not chosen in the end if it was tried less than this part of the one tried most.
-constexpr double least_tried = 0.2;
 // The parts of the memory limit that the memory of an episode may have in a decision, and after it.
 // They depend neither on threads nor on the batch, so that decisions do not either.
 constexpr std::size_t decision_share = 16;
@@ -157,9 +159,7 @@ void Uct::choose_memory(const DecisionPoint& point) {
     memory_ = &*memory;
     step_ = point.step;
     const std::int64_t depth = options_.horizon.value_or(state_values_ ? value_depth : first_depth);
-    end_ = point.left <= depth                      ? step_ + point.left
-           : memory->end >= step_ + (depth + 1) / 2 ? std::min(memory->end, step_ + depth)
-                                                    : step_ + depth;
+    end_ = end_of_search(step_, point.left, depth, memory->end);
     if (end_ != memory->end) {
         memory->tree.clear();
         memory->deepest = 0;
@@ -392,9 +392,7 @@ void Uct::follow(std::size_t k, RandomStream& stream, std::int64_t step) {
 
 // Whether the edge has as many outcomes as its trials may distinguish.
 bool Uct::is_full(EdgeId edge) const {
-    const double started = tree().arm(edge).weight;
-    return options_.outcomes > 0 &&
-           tree().edge(edge).outcome_count >= std::ceil(options_.outcomes * std::sqrt(started));
+    return has_all_outcomes(options_, tree().arm(edge).weight, tree().edge(edge).outcome_count);
 }
 
 void Uct::back_up(const Trial& trial) {

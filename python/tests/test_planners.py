@@ -97,13 +97,7 @@ class Planners(unittest.TestCase):
         env = rddlc.make(*MAZE)
         planner = rddlc.plan.UCT(env, steps=2000)
         for seed in (1, 2, 3):
-            observation, _ = env.reset(seed=seed)
-            total, done = 0.0, False
-            while not done:
-                observation, reward, terminated, truncated, _ = env.step(planner.act(observation))
-                total += reward
-                done = terminated or truncated
-            self.assertAlmostEqual(total, 4)
+            self.assertAlmostEqual(episode(env, planner, seed), 4)
 
     def test_documentation_lists_all_options(self) -> None:
         for planner in (rddlc.plan.CEM, rddlc.plan.UCT, rddlc.plan.Rollout):

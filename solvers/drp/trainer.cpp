@@ -2,6 +2,7 @@
 
 #include "solvers/drp/return_gradient.hpp"
 #include "solvers/files/checkpoint.hpp"
+#include "solvers/network/adam.hpp"
 #include "support/failure.hpp"
 
 #include <rddl/random/random.hpp>
@@ -138,8 +139,8 @@ struct DrpTrainer::State {
 
     // Adam (Kingma and Ba, 2015) up the gradient.
     void climb() {
-        const NetworkFunctions<float>& functions = network_functions();
-        const double length = std::sqrt(functions.squares(gradient.size(), gradient.data()));
+        const double length =
+            std::sqrt(network_functions().squares(gradient.size(), gradient.data()));
         progress.gradients += 1;
         progress.gradient_length = length;
         if (!std::isfinite(length) || length == 0) return;
@@ -150,12 +151,8 @@ struct DrpTrainer::State {
         // rewards.
         const double factor = -std::min(1.0, most / length) / progress.mean_length;
         adam_steps += 1;
-        const auto steps = static_cast<double>(adam_steps);
-        const double rate = options.learning_rate / (1 - std::pow(0.9, steps));
-        const double root = std::sqrt(1 - std::pow(0.999, steps));
-        functions.adam(gradient.size(), gradient.data(), static_cast<float>(factor),
-                       static_cast<float>(rate), static_cast<float>(root), 1e-8f,
-                       first_moments.data(), second_moments.data(), model.parameters.data());
+        take(AdamStep{adam_steps, options.learning_rate, factor, 1e-8f}, gradient, first_moments,
+             second_moments, model.parameters);
     }
 
     void update() {

@@ -19,6 +19,9 @@
 
 namespace rddlc::solvers {
 
+// Learners end an episode of a problem without a horizon after so many steps.
+inline constexpr std::int64_t horizon_without_one = 1000;
+
 struct EpisodeOptions {
     Preconditions preconditions = Preconditions::Ignore;
     std::int64_t episodes = 1;

@@ -1,5 +1,6 @@
 #include "solvers/ppo/learner.hpp"
 
+#include "solvers/network/adam.hpp"
 #include "solvers/ppo/state_noise.hpp"
 #include "support/failure.hpp"
 
@@ -250,12 +251,8 @@ LossSums Learner::learn(const Experience& experience, std::span<const std::uint3
     const double factor =
         options_.gradient_norm > 0 ? std::min(1.0, options_.gradient_norm / (norm + 1e-6)) : 1;
     adam_steps += 1;
-    const auto steps = static_cast<double>(adam_steps);
-    const double rate = step.learning_rate / (1 - std::pow(0.9, steps));
-    const double root = std::sqrt(1 - std::pow(0.999, steps));
-    functions.adam(gradient.size(), gradient.data(), static_cast<float>(factor),
-                   static_cast<float>(rate), static_cast<float>(root), 1e-5f, first_moments.data(),
-                   second_moments.data(), model_.parameters.data());
+    take(AdamStep{adam_steps, step.learning_rate, factor, 1e-5f}, gradient, first_moments,
+         second_moments, model_.parameters);
     return all;
 }
 

@@ -190,7 +190,7 @@ class Training {
         EpisodeOptions episodes;
         episodes.episodes = simulator_.problem->stochastic ? options_.evaluation_episodes : 1;
         episodes.seed = options_.seed + 0x65766131;
-        if (simulator_.problem->horizon == 0) episodes.horizon = 1000;
+        if (simulator_.problem->horizon == 0) episodes.horizon = horizon_without_one;
         return episodes;
     }
 

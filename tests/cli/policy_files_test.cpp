@@ -149,7 +149,7 @@ TEST_F(PolicyFiles, OfAFolderWhoseRunJsonMakesNoSenseAreRefused) {
         {"[]", "is not the JSON of a run: it is not an object"},
         {"{\"solver\":1}", "'solver' is a text, not 1"},
         {"{\"solver\":\"cgp\",\"domain\":[2]}", "'domain' is a text, not an array"},
-        {"{\"solver\":\"x\"}", "'x' is none of ppo, cgp and drp"},
+        {"{\"solver\":\"x\"}", "'x' is not ppo, cgp or drp"},
         {"{\"seed\":1}", "does not state the solver of a run"},
         {"1e999", "is not the JSON of a run"},
         {"{\"solver\":\"ppo\"}", "there is no policy.json in the folder 'r'"}};

@@ -10,7 +10,6 @@ namespace rddlc::workbench {
 namespace {
 
 constexpr std::uint64_t seed_of_episodes = 0x696D6974;  // not that of evaluations
-constexpr std::int64_t horizon_without_one = 1000;
 
 // Learners load problems without a policy block of another file.
 void refuse_block_file(const std::string& name) {
@@ -65,7 +64,7 @@ solvers::Demonstrate demonstrate(const rddl_simulator& simulator, const Imitatio
         solvers::EpisodeOptions episodes;
         episodes.episodes = imitation.episodes;
         episodes.seed = seed + seed_of_episodes;
-        if (simulator.problem->horizon == 0) episodes.horizon = horizon_without_one;
+        if (simulator.problem->horizon == 0) episodes.horizon = solvers::horizon_without_one;
         const solvers::Policy policy =
             policy_named(simulator, imitation.policy, false, episodes.seed, memory_limit, planning);
         return solvers::demonstrations(simulator, model, policy, episodes, stops);

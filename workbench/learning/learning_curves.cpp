@@ -201,7 +201,7 @@ std::string solver_of_run(const fs::path& folder) {
     const std::string solver = run->value("solver", "");
     if (solver == "ppo" || solver == "cgp" || solver == "drp") return solver;
     throw Failure(
-        fmt::format("'{}' does not state the solver of a run: '{}' is none of ppo, cgp and drp",
+        fmt::format("'{}' does not state the solver of a run: '{}' is not ppo, cgp or drp",
                     run_file(folder).string(), solver));
 }
 

@@ -48,6 +48,16 @@ std::function<bool()> stops_of(const solvers::Ranks& ranks) {
     return is_interrupted;
 }
 
+// The options of a learner, with those that are the same for all learners.
+template <class LearnerOptions>
+LearnerOptions of_run(LearnerOptions learner, const TrainOptions& run,
+                      std::function<bool()> stops) {
+    learner.seed = run.training.seed;
+    learner.memory_limit = run.problem.memory_limit;
+    learner.stops = std::move(stops);
+    return learner;
+}
+
 // A Ctrl-C that leaves no run to continue is a failure too; the status tells the signal.
 solvers::TrainingResult train_unless_interrupted(const rddl_simulator& simulator,
                                                  const solvers::Trainee& trainee,
@@ -185,10 +195,7 @@ ExitStatus train_ppo(TrainPpoOptions options, const solvers::Ranks& ranks) {
     const LoadedProblem problem = load_problem(options.problem.files(), options.load);
     const rddl_simulator& simulator = *problem.simulator;
     solvers::require_an_end_to_learn(*simulator.problem);
-    solvers::PpoOptions ppo = options.ppo;
-    ppo.seed = options.training.seed;
-    ppo.stops = stops_of(ranks);
-    ppo.memory_limit = options.problem.memory_limit;
+    solvers::PpoOptions ppo = of_run(options.ppo, options, stops_of(ranks));
     ppo.shortens_rollout = !ppo.names_rollout;
     const solvers::Demonstrate shown =
         demonstrate(simulator, imitation, ppo.seed, ppo.memory_limit,
@@ -238,10 +245,7 @@ struct TrainCgpOptions : TrainOptions {
 ExitStatus train_cgp(const TrainCgpOptions& options, const solvers::Ranks& ranks) {
     const LoadedProblem problem = load_problem(options.problem.files(), options.load);
     const rddl_simulator& simulator = *problem.simulator;
-    solvers::CgpOptions cgp = options.cgp;
-    cgp.seed = options.training.seed;
-    cgp.memory_limit = options.problem.memory_limit;
-    cgp.stops = stops_of(ranks);
+    const solvers::CgpOptions cgp = of_run(options.cgp, options, stops_of(ranks));
     return run_training(options, simulator, solvers::cgp_trainee(simulator, cgp, ranks), ranks);
 }
 
@@ -282,10 +286,7 @@ ExitStatus train_drp(TrainDrpOptions options) {
     options.load.quiet = options.training.quiet;
     const LoadedProblem problem = load_problem(options.problem.files(), options.load);
     const rddl_simulator& simulator = *problem.simulator;
-    solvers::DrpOptions drp = options.drp;
-    drp.seed = options.training.seed;
-    drp.memory_limit = options.problem.memory_limit;
-    drp.stops = is_interrupted;
+    const solvers::DrpOptions drp = of_run(options.drp, options, is_interrupted);
     return run_training(options, simulator,
                         solvers::drp_trainee(simulator, drp, problem.derivatives), {});
 }

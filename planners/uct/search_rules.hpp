@@ -1,0 +1,29 @@
+// Rules that the searches of plan:uct share.
+#pragma once
+
+#include "planners/uct/uct_options.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+namespace rddlc::planners {
+
+// An action is not chosen in the end if it was tried less than this part of the one tried most.
+inline constexpr double least_tried = 0.2;
+
+// The step up to which a search looks ahead, `depth` steps at most, where `left` remain and the
+// tree of the decision before looked ahead to `known_end`: to the same, if that is far enough
+// ahead.
+inline std::int64_t end_of_search(std::int64_t step, std::int64_t left, std::int64_t depth,
+                                  std::int64_t known_end) {
+    if (left <= depth) return step + left;
+    return known_end >= step + (depth + 1) / 2 ? std::min(known_end, step + depth) : step + depth;
+}
+
+// Whether an action that was taken so often has as many outcomes as may be told apart.
+inline bool has_all_outcomes(const UctOptions& options, double taken, double outcomes) {
+    return options.outcomes > 0 && outcomes >= std::ceil(options.outcomes * std::sqrt(taken));
+}
+
+}  // namespace rddlc::planners
