@@ -26,7 +26,11 @@ from functools import partial
 from pathlib import Path
 
 from comparison_tables import COLUMNS, LEARNERS, PLANNERS, document, has_value, shortfalls
-from sweep import add_options, add_results, chosen_instances, read_results
+from sweep import ROOT, add_options, add_results, chosen_instances, read_results
+
+sys.path.append(str(ROOT / "benchmarks"))
+
+from document import write_section  # noqa: E402
 
 METHODS = ("noop", "random", *LEARNERS, *PLANNERS, "optimum", "jaxplan", "prost")
 assert set(METHODS) == set(COLUMNS)
@@ -192,12 +196,17 @@ def main():
     parser.add_argument("--prost", type=Path, help="folder of PROST, after its build.py")
     parser.add_argument("--prost-seconds", type=float, default=0.05)
     parser.add_argument("--jax-python", type=Path, help="Python that has pyRDDLGym-jax")
+    parser.add_argument("--write", metavar="NAME", help="put the table into that section of docs/results/planning.md")
     parser.add_argument("--check", action="store_true", help="fail where the results miss the aims")
     arguments = parser.parse_args()
     results = read_results(arguments)
-    if arguments.table or arguments.check:
+    if arguments.table or arguments.write or arguments.check:
+        if arguments.table:
+            print(document(results))
+        if arguments.write:
+            write_section(arguments.write, document(results))
         missing = shortfalls(results) if arguments.check else []
-        print(*([document(results)] if arguments.table else []), *missing, sep="\n")
+        print(*missing, sep="\n", end="\n" if missing else "")
         return 1 if missing else 0
     if "prost" in arguments.methods and not arguments.prost:
         parser.error("--methods prost needs --prost FOLDER")

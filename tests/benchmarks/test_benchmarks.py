@@ -385,7 +385,8 @@ class Document(unittest.TestCase):
 
     def test_sections_of_the_pages_exist(self):
         text = "".join(page.read_text() for page in document.DOCUMENTS)
-        for name in ("comparison", "comparison by problem", "jax", "jax by problem", "handwritten", "lanes", "growth", "compile cost"):
+        benchmarks = ("comparison", "comparison by problem", "jax", "jax by problem", "handwritten", "lanes", "growth", "compile cost")
+        for name in (*benchmarks, "all problems", "IPPC 2023", "IPPC 2011"):
             self.assertEqual(text.count(f"<!-- begin of {name} -->"), 1, name)
             self.assertEqual(text.count(f"<!-- end of {name} -->"), 1, name)
 
