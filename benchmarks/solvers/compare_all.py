@@ -103,6 +103,9 @@ def best_policy(problem, arguments):
 def planned(planner, problem, arguments):
     policy = f"plan:{planner},steps={arguments.steps}"
     result = {"steps": arguments.steps}
+    if arguments.options:
+        policy += f",{arguments.options}"
+        result["options"] = arguments.options
     if planner == "rollout":
         result["policy"], base = best_policy(problem, arguments)
         policy += f",policy={base}"
@@ -191,6 +194,7 @@ def main():
     parser.add_argument("--methods", nargs="*", default=METHODS[:-2], choices=METHODS)
     parser.add_argument("--episodes", type=int, default=10)
     parser.add_argument("--steps", type=int, default=20000, help="simulated steps of a planner's decision")
+    parser.add_argument("--options", metavar="KEY=VALUE,...", help="further options of planners")
     parser.add_argument("--seconds", type=float, default=60, help="a learner's time")
     parser.add_argument("--limit", type=float, default=300, help="seconds after which a method is given up")
     parser.add_argument("--prost", type=Path, help="folder of PROST, after its build.py")

@@ -116,6 +116,15 @@ def numbers_text(numbers):
     return " or ".join(f"{number:,}" for number in sorted(set(numbers)))
 
 
+def options_text(results):
+    """The options of a planner that are not its defaults, and where."""
+    where = {}
+    for result in results:
+        if "options" in result:
+            where.setdefault(result["options"], []).append(f"{result['problem']} {result['instance']}")
+    return "".join(f"; `{options}` on {', '.join(names)}" for options, names in where.items())
+
+
 def settings_text(rows):
     """Episodes of each method, and steps of a planner's decision."""
     parts = []
@@ -125,7 +134,7 @@ def settings_text(rows):
             continue
         text = f"{name} {numbers_text(result['episodes'] for result in results)}"
         if method in PLANNERS:
-            text += f" ({numbers_text(result['steps'] for result in results)} steps a decision)"
+            text += f" ({numbers_text(result['steps'] for result in results)} steps a decision{options_text(results)})"
         parts.append(text)
     return "Episodes: " + ", ".join(parts) + "."
 
