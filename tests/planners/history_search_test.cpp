@@ -50,6 +50,14 @@ TEST(HistorySearch, DrawsActionsWhereThereAreTooMany) {
     EXPECT_EQ(plan.summary.illegal_actions, 0);
 }
 
+// Each throttle costs fuel, and the flag is further away than trials get.
+TEST(HistorySearch, DoesNothingWhereAllElseIsWorse) {
+    const Played plan = run(car(), "plan:uct,steps=20000,horizon=20");
+    EXPECT_EQ(plan.mean(), 0);
+    EXPECT_EQ(plan.thought(0, 0).candidates.front().name, "noop");
+    EXPECT_GT(plan.thought(0, 0).candidates.size(), 2u);
+}
+
 TEST(HistorySearch, IsTheSameOnAnyNumberOfThreads) {
     for (const rddl_simulator* simulator : {&target(), &reservoir()}) {
         const std::string planner = "plan:uct,steps=3000";
