@@ -16,6 +16,7 @@
 #include "passes/aggregations/tabulate_thresholds.hpp"
 #include "passes/aggregations/visit_true.hpp"
 #include "passes/arithmetic/compare_magnitudes.hpp"
+#include "passes/arithmetic/compare_roots.hpp"
 #include "passes/arithmetic/fast_math.hpp"
 #include "passes/arithmetic/find_ranges.hpp"
 #include "passes/arithmetic/prove_invariants.hpp"
@@ -225,6 +226,12 @@ constexpr Pass in_order[] = {
      "two opposite bounds of a real become one of its absolute value",
      {"search_intervals"},
      "it looks for plain comparisons"},
+    {"compare_roots",
+     Phase::Arithmetic,
+     compare_roots,
+     "a root that is only compared with a constant is not taken",
+     {"fuse_interm_fluents", "search_intervals"},
+     "roots and their comparisons stand together, and it looks for plain comparisons"},
     {"share_across_definitions",
      Phase::Sharing,
      share_across_definitions,
