@@ -10,8 +10,9 @@ FLOORS = ("noop", "random")
 COLUMNS = {"noop": "no-op", "random": "random", "ppo": "PPO", "cgp": "CGP", "cem": "`plan:cem`", "uct": "`plan:uct`",
            "gradient": "`plan:gradient`", "rollout": "`plan:rollout`", "optimum": "optimum", "jaxplan": "JaxPlan", "prost": "PROST"}
 # Why a method has no return: what its message contains, and the word that stands in the table.
-REASONS = (("longer than", "time"), ("memory", "memory"), ("reachable", "states"), ("states", "states"), ("not discrete", "reals"),
-           ("joint actions", "actions"), ("faults", "faults"), ("outcome", "outcomes"), ("random", "draws"))
+REASONS = (("longer than", "time"), ("memory", "memory"), ("not discrete", "reals"), ("joint actions", "actions"),
+           ("outcomes of", "outcomes"), ("combinations of what it draws", "outcomes"), ("lead to a fault", "faults"),
+           ("states can be reached", "states"), ("derivative", "derivatives"))
 REQUIRED_SHARE = 0.9
 
 

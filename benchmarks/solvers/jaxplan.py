@@ -4,7 +4,8 @@
     PYTHON benchmarks/solvers/jaxplan.py HVAC_ippc2023 1 --seconds 45 --episodes 10
 
 All configurations that pyRDDLGym-jax has for the problem are tried, a straight-line plan and a deep reactive policy, else its
-default for a straight-line plan; each trains for its part of --seconds. The best counts.
+default for a straight-line plan; each trains for its part of --seconds. The best counts. Returns are discounted by the
+instance, as in JaxPlan's own evaluation.
 """
 
 import argparse

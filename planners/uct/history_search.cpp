@@ -315,7 +315,7 @@ bool HistorySearch::has_edge(Id node, const std::byte* action) const {
 // UCB1, where trials under way count as tried.
 HistorySearch::Id HistorySearch::choose_edge(Id id) {
     const HistoryTree::Node& node = tree().node(id);
-    const double range = most_ > least_ ? most_ - least_ : 0;
+    const double range = range_of_returns(least_, most_);
     const double scale = std::max(options_.exploration * range, 1e-9) *
                          std::sqrt(std::log(static_cast<double>(node.started) + 1));
     Id chosen = node.first_edge;

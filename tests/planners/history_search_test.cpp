@@ -1,10 +1,12 @@
 // plan:uct where actions are drawn, and its tree of histories.
 #include "planners/uct/history_tree.hpp"
+#include "planners/uct/search_rules.hpp"
 #include "planning.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cstring>
+#include <limits>
 
 namespace rddlc::planners {
 namespace {
@@ -29,6 +31,15 @@ TEST(HistoryTree, FindsWhatItWasGiven) {
     int ones = 0;
     for (int i = 0; i < 8; ++i) ones += tree.seen_outcome(second, i / 8.0) == one;
     EXPECT_EQ(ones, 6);
+}
+
+TEST(SearchRules, ReturnsThatAreAlikeMayStillDiffer) {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    EXPECT_EQ(range_of_returns(infinity, -infinity), 0);  // nothing was seen
+    EXPECT_EQ(range_of_returns(0, 0), 0);
+    EXPECT_EQ(range_of_returns(-3, 8), 11);
+    EXPECT_EQ(range_of_returns(-200, -199.5), 4);
+    EXPECT_EQ(range_of_returns(300, 300), 6);
 }
 
 // The optimum of the target is -0.116, that of no-op -1.
