@@ -33,6 +33,7 @@
 #include "passes/lanes/separate_aggregations.hpp"
 #include "passes/lanes/separate_counts.hpp"
 #include "passes/lanes/separate_draws.hpp"
+#include "passes/lanes/test_equalities_first.hpp"
 #include "passes/lanes/unroll_rows.hpp"
 #include "passes/lanes/visit_affected.hpp"
 #include "passes/sharing/remove_unused_buffers.hpp"
@@ -267,6 +268,12 @@ constexpr Pass in_order[] = {
      "small tables of sums over rows are filled without loops",
      {"separate_aggregations"},
      "it has made such tables"},
+    {"test_equalities_first",
+     Phase::Lanes,
+     test_equalities_first,
+     "what has to hold beside an equality of reals is evaluated where the equality holds",
+     {"compare_magnitudes", "separate_aggregations"},
+     "conditions have their final form"},
     {"remove_unused_buffers",
      Phase::Sharing,
      remove_unused_buffers,
