@@ -27,8 +27,8 @@ def error_of_difference(a, b):
 
 
 def is_better(result, floor):
-    """Better by more than a thousandth, and by more than chance: half of the width of both intervals together."""
-    return result["mean"] - floor["mean"] > max(1e-3 * abs(floor["mean"]), error_of_difference(result, floor) / 2)
+    """Better by more than a thousandth, and by more than chance."""
+    return result["mean"] - floor["mean"] > max(1e-3 * abs(floor["mean"]), error_of_difference(result, floor))
 
 
 def is_at_least(result, other):
