@@ -25,6 +25,7 @@ struct CemOptions : CommonOptions {
     Weights weights = Weights::Elites;
     double temperature = 0.2;  // of mppi, in deviations of the returns
     Tail tail = Tail::Policy;  // with a policy
+    const char* option_for_values() const { return tail == Tail::Value ? "tail=value" : nullptr; }
 };
 
 // The correlations of noise, for one plan after the other.
