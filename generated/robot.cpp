@@ -232,8 +232,8 @@ struct Simulator {
                     const auto term =
                         0.05 * rddl::at(scratch.range_to, b) *
                         (0.05 * rddl::at(scratch.range_to, b));
-                    return rddl::sample::normal(several, {4, b}, rddl::at(scratch.range_to, b),
-                                                term);
+                    return rddl::sample::normal(several, rddl::PlaceAmong<beacon_count>{4, b},
+                                                rddl::at(scratch.range_to, b), term);
                 },
                 [&] { return 0.0; });
         });

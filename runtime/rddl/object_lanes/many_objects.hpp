@@ -256,8 +256,8 @@ template <int n, class L, class Body>
 }  // namespace detail
 
 // Calls body(context, objects) for all of [0, count). The bools of few objects of one environment
-// are the bits of a mask, which takes fewer instructions than a nearly empty register. So do packs
-// that take a few objects one after the other.
+// are the bits of a mask, and packs take few objects one after the other: both take fewer
+// instructions than a nearly empty register.
 template <Index count, class L, class Body>
 RDDL_INLINE void for_many_objects(Context<L>& context, Body&& body) {
     constexpr int at_once = detail::most_in_registers<typename L::Bool>;
