@@ -1,6 +1,7 @@
 // One environment whose objects are in registers has the values, draws and faults that it has with
-// Over 400 lines: a test for each thing that loops over several objects do, on shared tables.
 // one object after the other. Also built for other instruction sets (CMakeLists.txt).
+//
+// Over 400 lines: a test for each thing that loops over several objects do, on shared tables.
 #include <rddl/object_lanes/objects.hpp>
 #include <rddl/simulator.hpp>
 
