@@ -256,13 +256,13 @@ template <int n, class L, class Body>
 }  // namespace detail
 
 // Calls body(context, objects) for all of [0, count). The bools of few objects of one environment
-// are the bits of a mask, and packs take few objects one after the other: both take fewer
-// instructions than a nearly empty register.
+// are the bits of a mask, and packs take fewer than 8 objects, whose masks of 64 environments do not
+// fill a register, one after the other.
 template <Index count, class L, class Body>
 RDDL_INLINE void for_many_objects(Context<L>& context, Body&& body) {
     constexpr int at_once = detail::most_in_registers<typename L::Bool>;
     constexpr int rest = static_cast<int>(count % at_once);
-    constexpr Index few = L::width == 1 ? objects_at_once : objects_at_once / 2;
+    constexpr Index few = L::width == 1 ? objects_at_once : 7;
     if constexpr (count <= few) {
         for_each_object<count>(context, body);
     } else {
