@@ -256,8 +256,8 @@ template <int n, class L, class Body>
 }  // namespace detail
 
 // Calls body(context, objects) for all of [0, count). The bools of few objects of one environment
-// are the bits of a mask, and packs take fewer than 8 objects, whose masks of 64 environments do not
-// fill a register, one after the other.
+// are the bits of a mask, and packs take fewer than 8 objects, whose masks of 64 environments do
+// not fill a register, one after the other.
 template <Index count, class L, class Body>
 RDDL_INLINE void for_many_objects(Context<L>& context, Body&& body) {
     constexpr int at_once = detail::most_in_registers<typename L::Bool>;
