@@ -84,7 +84,7 @@ struct Simulator {
     template <class L>
     static void set_running(const State<L>& state, const Action<L>& action, State<L>& next,
                             rddl::Context<L>& context) {
-        rddl::for_each_object(context, computer_count, [&](auto& several, auto c) {
+        rddl::for_each_object<computer_count>(context, [&](auto& several, auto c) {
             rddl::elements(next.running, c) = rddl::branch(
                 several, rddl::at(action.reboot, c),
                 [&] { return true; },

@@ -103,7 +103,7 @@ struct Simulator {
         set_reached_x(scratch);
         set_reached_y(scratch);
         set_bump(scratch, observation, context);
-        set_range_to(scratch);
+        set_range_to(scratch, context);
         set_x(scratch, next);
         set_y(scratch, next);
         set_answers(scratch, context);
@@ -184,11 +184,12 @@ struct Simulator {
 
     // range-to(?b)  (domain.rddl:79)
     template <class L>
-    static void set_range_to(Scratch<L>& scratch) {
-        for (rddl::Index b = 0; b < beacon_count; ++b) {
-            scratch.range_to[b] =
-                rddl::hypot(scratch.reached_x - BEACON_X_[b], scratch.reached_y - BEACON_Y_[b]);
-        }
+    static void set_range_to(Scratch<L>& scratch, rddl::Context<L>& context) {
+        rddl::for_each_object<beacon_count>(context, [&](auto&, auto b) {
+            const auto term = scratch.reached_x - rddl::at(BEACON_X_, b);
+            rddl::elements(scratch.range_to, b) =
+                rddl::hypot(term, scratch.reached_y - rddl::at(BEACON_Y_, b));
+        });
     }
 
     // x'  (domain.rddl:74)
@@ -224,17 +225,18 @@ struct Simulator {
     template <class L>
     static void set_range(const Scratch<L>& scratch, Observation<L>& observation,
                           rddl::Context<L>& context) {
-        using Real = typename L::Real;
-        for (rddl::Index b = 0; b < beacon_count; ++b) {
-            observation.range[b] = rddl::branch(
-                context, scratch.answers[b],
+        rddl::for_each_object<beacon_count>(context, [&](auto& several, auto b) {
+            rddl::elements(observation.range, b) = rddl::branch(
+                several, rddl::at(scratch.answers, b),
                 [&] {
-                    const Real term = 0.05 * scratch.range_to[b] * (0.05 * scratch.range_to[b]);
-                    return rddl::sample::normal(context, rddl::PlaceAmong<beacon_count>{4, b},
-                                                scratch.range_to[b], term);
+                    const auto term =
+                        0.05 * rddl::at(scratch.range_to, b) *
+                        (0.05 * rddl::at(scratch.range_to, b));
+                    return rddl::sample::normal(several, rddl::PlaceAmong<beacon_count>{4, b},
+                                                rddl::at(scratch.range_to, b), term);
                 },
                 [&] { return 0.0; });
-        }
+        });
     }
 
     // The reward of the step that was just made.

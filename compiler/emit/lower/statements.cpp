@@ -142,7 +142,7 @@ void FunctionBody::statement(const ir::Loop& loop) {
     expressions_.return_to(before);
 }
 
-// rddl::for_each_object(context, computer_count, [&](auto& several, auto x) { ... });
+// rddl::for_each_object<computer_count>(context, [&](auto& several, auto x) { ... });
 // rddl::for_affected_objects<cell_count>(context, state.at, at_affects_rows_, at_affects_, next.at,
 //                                        [&](auto& several, auto c) { ... });
 // rddl::for_many_objects<cell_count>(context, [&](auto& several, auto c) { ... });
@@ -168,13 +168,11 @@ void FunctionBody::over_several_objects(const ir::Loop& loop) {
                         tree::list(tree::word("context"), expressions_.record(few),
                                    expressions_.record(rows), expressions_.record(affected),
                                    expressions_.record(only_target(nest)), std::move(lambda)))});
-    } else if (loop.as_words) {
-        statements_.push_back({tree::call("rddl::for_many_objects<" + count + ">",
-                                          tree::list(tree::word("context"), std::move(lambda)))});
     } else {
-        statements_.push_back(
-            {tree::call("rddl::for_each_object",
-                        tree::list(tree::word("context"), tree::word(count), std::move(lambda)))});
+        const std::string function =
+            loop.as_words ? "rddl::for_many_objects<" : "rddl::for_each_object<";
+        statements_.push_back({tree::call(function + count + ">",
+                                          tree::list(tree::word("context"), std::move(lambda)))});
     }
     expressions_.leave_nest();
     expressions_.return_to(before);

@@ -46,6 +46,10 @@ bool ObjectLanes::can_evaluate(ir::NodeId id) const {
                    ir::is_place_in(program_, nest_, sample.place.index) &&
                    can_evaluate_all(sample.parameters);
         },
+        [&](const ir::DiscreteOver& discrete) {
+            return ir::is_place_in(program_, nest_, discrete.place.index) &&
+                   can_evaluate(discrete.weight) && can_be_term(discrete.weight);
+        },
         [&](const ir::Interval& interval) {
             return ir::is_place_in(program_, nest_, interval.place.index) &&
                    can_index(interval.table, interval.row);
@@ -103,9 +107,13 @@ bool ObjectLanes::is_at_own_place(const ir::Element& element) const {
            ir::begins_with(program_, places->indices, nest_);
 }
 
+// Axes of a single object before those of the nest change no place.
 bool ObjectLanes::can_store(const ir::Store& store) const {
-    return store.indices.size() == nest_.variables.size() &&
-           ir::begins_with(program_, store.indices, nest_) && can_evaluate(store.value);
+    if (!ir::ends_with(program_, store.indices, nest_)) return false;
+    const auto& shape = program_[store.target].shape;
+    const auto own = shape.end() - static_cast<std::ptrdiff_t>(nest_.variables.size());
+    return std::all_of(shape.begin(), own, [](std::int64_t size) { return size == 1; }) &&
+           can_evaluate(store.value);
 }
 
 }  // namespace rddlc::passes

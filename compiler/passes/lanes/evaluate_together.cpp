@@ -15,6 +15,10 @@ namespace {
 // In operations (Properties::cost): C++ compilers put cheaper loops over reals into registers
 // themselves.
 constexpr double least_cost_of_reals = 4;
+// Objects that do not fill a register share one where each of them takes so many operations:
+// elementary functions, draws of reals, and draws from weights do.
+constexpr double least_cost_of_few_objects = 60;
+constexpr std::int64_t fewest_objects = 2;
 
 class Marking {
   public:
@@ -82,11 +86,18 @@ class Marking {
             return match(
                 statement.form, [&](const ir::Let& let) { return several.can_evaluate(let.value); },
                 [&](const ir::Store& store) {
-                    return several.are_enough(program_[store.target].scalar) &&
+                    return (several.are_enough(program_[store.target].scalar) ||
+                            are_expensive(nest, store)) &&
                            several.can_store(store);
                 },
                 [](const auto&) { return false; });
         });
+    }
+
+    bool are_expensive(const ir::Nest& nest, const ir::Store& store) const {
+        return program_[store.target].scalar != ir::Scalar::Bool &&
+               ir::combinations(program_, nest.variables) >= fewest_objects &&
+               cost_of(store.value) >= least_cost_of_few_objects;
     }
 
     const ir::Program& program_;

@@ -6,7 +6,9 @@
 //
 // Loops right inside each other become one over all combinations. What they read and write are the
 // elements of their objects, or what is the same for all, without aggregations; they draw, or
-// compute bools, or reals that are not cheap. Fewer than 8 iterations do not fill the registers.
+// compute bools, or reals that are not cheap. Fewer than 8 iterations do not fill the registers,
+// which pays only for reals and ints that take long, such as elementary functions and draws from
+// weights.
 #pragma once
 
 #include "ir/ir.hpp"

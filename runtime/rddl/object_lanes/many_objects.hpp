@@ -256,13 +256,15 @@ template <int n, class L, class Body>
 }  // namespace detail
 
 // Calls body(context, objects) for all of [0, count). The bools of few objects of one environment
-// are the bits of a mask, which takes fewer instructions than a nearly empty register.
+// are the bits of a mask, and packs take fewer than 8 objects, whose masks of 64 environments do
+// not fill a register, one after the other.
 template <Index count, class L, class Body>
 RDDL_INLINE void for_many_objects(Context<L>& context, Body&& body) {
     constexpr int at_once = detail::most_in_registers<typename L::Bool>;
     constexpr int rest = static_cast<int>(count % at_once);
-    if constexpr (L::width == 1 && count <= objects_at_once) {
-        for_each_object(context, count, body);
+    constexpr Index few = L::width == 1 ? objects_at_once : 7;
+    if constexpr (count <= few) {
+        for_each_object<count>(context, body);
     } else {
         for (Index first = 0; first < count - rest; first += at_once)
             detail::for_these_objects<at_once>(context, first, body);

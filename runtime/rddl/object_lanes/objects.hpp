@@ -1,9 +1,9 @@
 // Several objects of one environment in vector registers.
 //
 // Emitted code evaluates some loops by for_each_object. Packs of environments take one object after
-// the other there; one environment alone takes 16 of them at once: a value is then a pack whose
-// lanes are neighbouring elements of tables. Each lane computes what one object would, bit for bit,
-// and the reported fault is that of the first object.
+// the other there; one environment alone takes 16 of them at once, or 8 if there are no more: a
+// value is then a pack whose lanes are neighbouring elements of tables. Each lane computes what one
+// object would, bit for bit, and the reported fault is that of the first object.
 #pragma once
 
 #include <rddl/lanes/simd.hpp>
@@ -93,14 +93,16 @@ RDDL_INLINE Lanes<std::int64_t, n> in_range(const Context<Objects<n, R>>& contex
 // counter value are those of two neighbours.
 template <int n, class R>
 RDDL_INLINE Lanes<R, n> uniform_at(Context<Objects<n, R>>& context, Place place) {
-    using Word = Lanes<std::uint64_t, n / 2>;
+    constexpr int pairs = std::max(n / 2, simd::lanes_of<std::uint64_t>);
+    using Word = Lanes<std::uint64_t, pairs>;
     if (context.draws.are_medians) return Lanes<R, n>{R(median_number)};
     const Word first{std::uint64_t{place.index / 2}};
     philox::Block<Word> words;
     context.draws.schedule.generate(place.series,
-                                    first + Word::load(detail::lane_numbers<n / 2>.data()), words);
-    return unit_real<R>(
+                                    first + Word::load(detail::lane_numbers<pairs>.data()), words);
+    const auto numbers = unit_real<R>(
         interleaved(join_lower_halves(words[0], words[1]), join_lower_halves(words[2], words[3])));
+    return part_of<Lanes<R, n>>(numbers, 0);
 }
 
 // --------------------------------------------------------------------------------- elements
@@ -278,14 +280,20 @@ RDDL_INLINE void for_each_of_several(Context<ScalarOf<R>>& context, Index count,
 
 }  // namespace detail
 
-template <int n, class R, class Body>
-RDDL_INLINE void for_each_object(Context<Pack<n, R>>& context, Index count, Body&& body) {
+// One or two registers of doubles with AVX-512: no more than the objects need.
+inline constexpr int objects_at_once = 16;
+template <Index count, class R>
+inline constexpr int objects_of_loop = count <= objects_at_once / 2
+                                           ? std::max(objects_at_once / 2, simd::lanes_of<R>)
+                                           : objects_at_once;
+
+template <Index count, int n, class R, class Body>
+RDDL_INLINE void for_each_object(Context<Pack<n, R>>& context, Body&& body) {
     for (Index i = 0; i < count; ++i) body(context, OneObject{i});
 }
-inline constexpr int objects_at_once = 16;
-template <class R, class Body>
-RDDL_INLINE void for_each_object(Context<ScalarOf<R>>& context, Index count, Body&& body) {
-    detail::for_each_of_several<objects_at_once>(context, count, body);
+template <Index count, class R, class Body>
+RDDL_INLINE void for_each_object(Context<ScalarOf<R>>& context, Body&& body) {
+    detail::for_each_of_several<objects_of_loop<count, R>>(context, count, body);
 }
 
 }  // namespace rddl

@@ -58,6 +58,62 @@ TEST(EvaluateTogether, TakesLoopsOverRealsThatAreNotCheap) {
     EXPECT_EQ(marked("exp[v(?y, ?x)]"), 0);
 }
 
+// Three objects do not fill a register.
+TEST(EvaluateTogether, TakesFewObjectsWhoseRealsTakeLong) {
+    const auto marked = [](const std::string& cpf) {
+        passes::Report report;
+        passes::evaluate_together(
+            grounded({.pvariables = "v(obj) : { state-fluent, real, default = 0.0 };",
+                      .cpfs = "v'(?x) = " + cpf + ";"}),
+            report);
+        return report["loops over several objects at once"];
+    };
+    EXPECT_EQ(marked("exp[v(?x)]"), 1);
+    EXPECT_EQ(marked("if (v(?x) > 1.0) then 2.0 else v(?x) + Normal(0.0, 1.0)"), 1);
+    EXPECT_EQ(marked("max[0.0, min[v(?x), 1.0]] + v(?x) * v(?x) / 3.0"), 0);
+    EXPECT_EQ(marked("v(?x) + sum_{?y : obj} [v(?y)]"), 0);
+}
+
+// Both objects draw from the weights of three others.
+TEST(EvaluateTogether, TakesDrawsFromWeightsThatLieBesideEachOther) {
+    const auto is_marked = [](const std::string& weight) {
+        passes::Report report;
+        const ir::Program program = valid(passes::evaluate_together(
+            grounded({.pvariables = "w(obj, pair) : { state-fluent, real, default = 0.2 };\n"
+                                    "u(pair, obj) : { state-fluent, bool, default = false };\n"
+                                    "at(pair) : { interm-fluent, obj };",
+                      .cpfs = "w'(?x, ?p) = w(?x, ?p);\nu'(?p, ?x) = u(?p, ?x);\n"
+                              "at(?p) = UnnormDiscrete_{?x : obj} (" +
+                              weight + ");"}),
+            report));
+        return ir::print(program).find("for p in pair, several at once") != std::string::npos;
+    };
+    EXPECT_TRUE(is_marked("exp[w(?x, ?p)]"));
+    EXPECT_FALSE(is_marked("w(?x, ?p)")) << "cheap";
+    EXPECT_FALSE(is_marked("exp[w(?x, ?p) + u(?p, ?x)]")) << "bools apart";
+}
+
+// The first dimension of `at` has one object.
+TEST(EvaluateTogether, PassesOverAxesOfASingleObject) {
+    std::string text = Problem{.pvariables =
+                                   "at(pair, obj, obj) : { state-fluent, bool, default = false };\n"
+                                   "to(obj, pair, obj) : { state-fluent, bool, default = false };\n"
+                                   "a : { action-fluent, bool, default = false };",
+                               .cpfs =
+                                   "at'(?p, ?x, ?y) = at(?p, ?x, ?y) ^ a;\n"
+                                   "to'(?x, ?p, ?y) = to(?x, ?p, ?y) ^ a;"}
+                           .text();
+    text.replace(text.find("{a1, a2}"), 8, "{a1}");
+    passes::Report report;
+    const std::string after =
+        ir::print(valid(passes::evaluate_together(std::move(*ground_text(text).program), report)));
+    EXPECT_NE(after.find("for x in obj, as words\n        for y in obj\n"
+                         "            next.at[0, x, y] = "),
+              std::string::npos)
+        << after;
+    EXPECT_EQ(report["loops over several objects at once"], 1) << after;
+}
+
 TEST(EvaluateTogether, LeavesLoopsThatReadOtherElements) {
     for (const char* cpf :
          {"on(?y, ?x) ^ a", "Bernoulli(W(?x))", "w(?y)", "exists_{?z : obj} [on(?x, ?z)]",

@@ -79,7 +79,7 @@ void expect_the_same_at() {
     };
     Tables<L, n> expected, result;
     Context<L> context = context_of_lanes<L>(), same_context = context_of_lanes<L>();
-    for_each_object(context, n, body(expected));
+    for_each_object<n>(context, body(expected));
     for_many_objects<n>(same_context, body(result));
     const auto expect = [](const auto& a, const auto& b) {
         for (std::size_t i = 0; i <= n; ++i)
@@ -168,7 +168,7 @@ void expect_the_affected(std::size_t every) {
         };
     };
     Context<L> context = context_of_lanes<L>(), same_context = context_of_lanes<L>();
-    for_each_object(context, n, body(expected));
+    for_each_object<n>(context, body(expected));
     for_affected_objects<n>(same_context, few, rows, readers, result, body(result));
     for (std::size_t i = 0; i < n; ++i)
         for (int lane = 0; lane < lanes<L>; ++lane)

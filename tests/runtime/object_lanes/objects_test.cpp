@@ -1,5 +1,7 @@
 // One environment whose objects are in registers has the values, draws and faults that it has with
 // one object after the other. Also built for other instruction sets (CMakeLists.txt).
+//
+// Over 400 lines: a test for each thing that loops over several objects do, on shared tables.
 #include <rddl/object_lanes/objects.hpp>
 #include <rddl/simulator.hpp>
 
@@ -49,7 +51,7 @@ TEST(Objects, DrawMediansInAStreamWithoutLuck) {
     Context<Scalar> context{median_key, 1, {}};
     Grid<bool> drawn;
     Grid<double> normal;
-    for_each_object(context, count, [&](auto& several, auto x) {
+    for_each_object<count>(context, [&](auto& several, auto x) {
         elements(drawn, x) = sample::bernoulli(several, {0, x}, at(from.level, x));
         elements(normal, x) = sample::normal(several, {1, x}, at(from.level, x), 4.0);
     });
@@ -71,32 +73,50 @@ TEST(Objects, DrawMediansInAStreamWithoutLuck) {
     }
 }
 
-TEST(Objects, AreElementsOfTables) {
+// The first objects of the tables, whose number is no multiple of the lanes.
+template <Index objects>
+void expect_elements() {
     const Tables from = tables();
     Context<Scalar> context = context_of_step(1);
     struct {
-        Grid<bool> on;
+        Grid<bool> on{};
         bool behind_on = true;
-        Grid<double> level;
+        Grid<double> level{};
         double behind_level = -1;
-        Grid<std::int64_t> number;
+        Grid<std::int64_t> number{};
         std::int64_t behind_number = -1;
     } to;
-    for_each_object(context, count, [&](auto&, auto x) {
+    for_each_object<objects>(context, [&](auto&, auto x) {
         elements(to.on, x) = !at(from.on, x);
         elements(to.level, x) = at(from.by_number, x, at(from.number, x)) + at(from.level, x);
         elements(to.number, x) = wrap_add(at(from.number, x), 3);
     });
-    for (std::size_t r = 0; r < rows; ++r)
-        for (std::size_t c = 0; c < columns; ++c) {
-            const auto number = static_cast<std::size_t>(from.number[r][c]);
-            EXPECT_EQ(to.on[r][c], !from.on[r][c]);
-            EXPECT_EQ(to.level[r][c], from.by_number[r][c][number] + from.level[r][c]);
-            EXPECT_EQ(to.number[r][c], from.number[r][c] + 3);
-        }
+    const auto at_i = [](const auto& grid, Index i) {
+        return grid[static_cast<std::size_t>(i / columns)][static_cast<std::size_t>(i % columns)];
+    };
+    for (Index i = 0; i < objects; ++i) {
+        const auto number = static_cast<std::size_t>(at_i(from.number, i));
+        EXPECT_EQ(at_i(to.on, i), !at_i(from.on, i));
+        EXPECT_EQ(at_i(to.level, i), at_i(from.by_number, i)[number] + at_i(from.level, i));
+        EXPECT_EQ(at_i(to.number, i), at_i(from.number, i) + 3);
+    }
+    for (Index i = objects; i < count; ++i) {
+        EXPECT_FALSE(at_i(to.on, i));
+        EXPECT_EQ(at_i(to.level, i), 0);
+        EXPECT_EQ(at_i(to.number, i), 0);
+    }
     EXPECT_TRUE(to.behind_on);
     EXPECT_EQ(to.behind_level, -1);
     EXPECT_EQ(to.behind_number, -1);
+}
+
+TEST(Objects, AreElementsOfTables) {
+    expect_elements<count>();
+    expect_elements<16>();
+    expect_elements<9>();
+    expect_elements<8>();
+    expect_elements<5>();
+    expect_elements<1>();
 }
 
 template <std::size_t kinds>
@@ -115,7 +135,7 @@ void expect_own_choices() {
     Context<Scalar> context = context_of_step(1);
     Grid<double> value;
     Grid<bool> flag;
-    for_each_object(context, count, [&](auto&, auto x) {
+    for_each_object<count>(context, [&](auto&, auto x) {
         const auto number = wrap_add(at(from.number, x), 6);
         elements(value, x) = at_own(values, x, at(kind, x), number);
         elements(flag, x) = at_own(flags, x, at(kind, x), number);
@@ -153,8 +173,8 @@ void expect_bools_at_places() {
     Context<Scalar> context = context_of_step(1);
     std::array<bool, objects + 1> chosen{};
     constexpr auto object_count = static_cast<Index>(objects);
-    for_each_object(context, object_count,
-                    [&](auto&, auto x) { elements(chosen, x) = at_places<places>(on, x); });
+    for_each_object<object_count>(
+        context, [&](auto&, auto x) { elements(chosen, x) = at_places<places>(on, x); });
     for (std::size_t i = 0; i < objects; ++i) {
         EXPECT_EQ(chosen[i], on[places[i]]) << size << " " << i;
         EXPECT_EQ(element(on, static_cast<Index>(places[i])), on[places[i]]);
@@ -164,6 +184,8 @@ void expect_bools_at_places() {
 
 TEST(Objects, ReadBoolsAtPlaces) {
     expect_bools_at_places<1, std::uint8_t, 20>();
+    expect_bools_at_places<9, std::uint8_t, 5>();
+    expect_bools_at_places<130, std::uint8_t, 7>();
     expect_bools_at_places<15, std::uint8_t, 64>();
     expect_bools_at_places<33, std::uint8_t, 17>();
     expect_bools_at_places<64, std::uint8_t, 65>();
@@ -177,8 +199,9 @@ TEST(Objects, ReadBoolsAtPlaces) {
 
 // Each object aggregates elements that lie beside those of its neighbours: the same results as one
 // object after the other, with the first of two zeros, nan and the order of additions.
-TEST(Objects, AggregateTheirOwnTerms) {
-    constexpr std::size_t terms = 7, objects = 37;
+template <std::size_t objects>
+void expect_aggregates_of_own_terms() {
+    constexpr std::size_t terms = 7;
     constexpr double nan = std::numeric_limits<double>::quiet_NaN();
     std::array<std::array<double, objects>, terms> level;
     std::array<std::array<bool, objects>, terms> on;
@@ -199,7 +222,7 @@ TEST(Objects, AggregateTheirOwnTerms) {
         return table[static_cast<std::size_t>(k)];
     };
     Context<Scalar> context = context_of_step(1);
-    for_each_object(context, static_cast<Index>(objects), [&](auto& several, auto x) {
+    for_each_object<static_cast<Index>(objects)>(context, [&](auto& several, auto x) {
         const auto term = [&](Index k) {
             return at(row(level, k), x);
         };
@@ -241,28 +264,47 @@ TEST(Objects, AggregateTheirOwnTerms) {
     }
 }
 
-TEST(Objects, TakeOneValueForAll) {
-    for (const Index n : {Index{8}, Index{16}, Index{17}, Index{64}}) {
-        std::array<bool, 65> on{};
-        std::array<double, 65> level{};
-        Context<Scalar> context = context_of_step(1);
-        for_each_object(context, n, [&](auto&, auto x) {
-            elements(on, x) = true;
-            elements(level, x) = 2.5;
-        });
-        for (std::size_t i = 0; i < on.size(); ++i) {
-            EXPECT_EQ(on[i], static_cast<Index>(i) < n);
-            EXPECT_EQ(level[i], static_cast<Index>(i) < n ? 2.5 : 0);
-        }
+TEST(Objects, AggregateTheirOwnTerms) {
+    expect_aggregates_of_own_terms<37>();
+    expect_aggregates_of_own_terms<6>();
+}
+
+template <Index n>
+void expect_one_value_for_all() {
+    std::array<bool, 65> on{};
+    std::array<double, 65> level{};
+    Context<Scalar> context = context_of_step(1);
+    for_each_object<n>(context, [&](auto&, auto x) {
+        elements(on, x) = true;
+        elements(level, x) = 2.5;
+    });
+    for (std::size_t i = 0; i < on.size(); ++i) {
+        EXPECT_EQ(on[i], static_cast<Index>(i) < n);
+        EXPECT_EQ(level[i], static_cast<Index>(i) < n ? 2.5 : 0);
     }
 }
 
-TEST(Objects, DrawWhatTheyDrawOneByOne) {
+TEST(Objects, TakeOneValueForAll) {
+    expect_one_value_for_all<3>();
+    expect_one_value_for_all<8>();
+    expect_one_value_for_all<16>();
+    expect_one_value_for_all<17>();
+    expect_one_value_for_all<64>();
+}
+
+template <Index objects>
+void expect_draws_one_by_one() {
     const Tables from = tables();
     Context<Scalar> context = context_of_step(7), other = context;
     Grid<bool> on;
     Grid<double> level, wait;
-    for_each_object(context, count, [&](auto& several, auto x) {
+    Grid<std::int64_t> kind, other_kind;
+    const auto weight_by = [](const auto& p) {
+        return [p](Index i) {
+            return i == 0 ? p : (1.0 - p) * 0.5;
+        };
+    };
+    for_each_object<objects>(context, [&](auto& several, auto x) {
         elements(on, x) = branch(
             several, at(from.on, x), [&] { return true; },
             [&] {
@@ -270,16 +312,28 @@ TEST(Objects, DrawWhatTheyDrawOneByOne) {
             });
         elements(level, x) = sample::normal(several, {4, x, 3}, at(from.level, x), 2.0);
         elements(wait, x) = sample::exponential(several, {5, x}, 2.0);
+        const auto weight = weight_by(at(from.level, x) + 0.0);
+        elements(kind, x) = sample::discrete_over(several, {6, x}, 3, weight);
+        elements(other_kind, x) = sample::unnormalised_discrete_over(several, {7, x}, 2, weight);
     });
-    Index i = 0;
-    for (std::size_t r = 0; r < rows; ++r)
-        for (std::size_t c = 0; c < columns; ++c, ++i) {
-            const double p = from.level[r][c];
-            EXPECT_EQ(on[r][c], from.on[r][c] || sample::bernoulli(other, {3, i}, p));
-            EXPECT_EQ(level[r][c], sample::normal(other, {4, i, 3}, p, 2.0));
-            EXPECT_EQ(wait[r][c], sample::exponential(other, {5, i}, 2.0));
-        }
+    for (Index i = 0; i < objects; ++i) {
+        const auto r = static_cast<std::size_t>(i / columns);
+        const auto c = static_cast<std::size_t>(i % columns);
+        const double p = from.level[r][c];
+        EXPECT_EQ(on[r][c], from.on[r][c] || sample::bernoulli(other, {3, i}, p));
+        EXPECT_EQ(level[r][c], sample::normal(other, {4, i, 3}, p, 2.0));
+        EXPECT_EQ(wait[r][c], sample::exponential(other, {5, i}, 2.0));
+        EXPECT_EQ(kind[r][c], sample::discrete_over(other, {6, i}, 3, weight_by(p)));
+        EXPECT_EQ(other_kind[r][c],
+                  sample::unnormalised_discrete_over(other, {7, i}, 2, weight_by(p)));
+    }
     EXPECT_FALSE(context.faulted());
+}
+
+TEST(Objects, DrawWhatTheyDrawOneByOne) {
+    expect_draws_one_by_one<count>();
+    expect_draws_one_by_one<8>();
+    expect_draws_one_by_one<3>();
 }
 
 constexpr std::array<std::array<double, 2>, 3> thresholds_by_kind = {{
@@ -300,7 +354,7 @@ TEST(Objects, DrawIntervalsFromRowsOfTheirOwn) {
     std::array<std::int64_t, 21> kinds{}, of_kind{}, of_object{}, chosen{};
     for (std::size_t x = 0; x < kinds.size(); ++x) kinds[x] = static_cast<std::int64_t>(x % 3);
     Context<Scalar> context = context_of_step(7), other = context;
-    for_each_object(context, 21, [&](auto& several, auto x) {
+    for_each_object<21>(context, [&](auto& several, auto x) {
         elements(of_kind, x) = sample::interval<thresholds_by_kind>(several, {3, x}, at(kinds, x));
         elements(of_object, x) = sample::interval<thresholds_by_object>(several, {4, x}, x);
         elements(chosen, x) = branch(
@@ -330,7 +384,7 @@ TEST(Objects, TellTheFaultOfTheFirstObject) {
     std::array<bool, 40> draws{};
     std::array<double, 40> levels{};
     Context<Scalar> context = context_of_step(1);
-    for_each_object(context, 40, [&](auto& several, auto x) {
+    for_each_object<40>(context, [&](auto& several, auto x) {
         elements(draws, x) = sample::bernoulli(several, {0, x}, at(p, x));
         elements(levels, x) = sample::normal(several, {1, x}, 0.0, at(variance, x));
     });
@@ -344,7 +398,7 @@ TEST(Objects, DoNotFaultInBranchesThatTheyDoNotTake) {
     p[3] = 2;
     std::array<bool, 20> draws{};
     Context<Scalar> context = context_of_step(1);
-    for_each_object(context, 20, [&](auto& several, auto x) {
+    for_each_object<20>(context, [&](auto& several, auto x) {
         elements(draws, x) = branch(
             several, at(p, x) > 1.0, [&] { return false; },
             [&] {
@@ -361,13 +415,13 @@ TEST(Objects, ArePlainElementsInPacks) {
     std::array<L::Real, count> level;
     const Tables from = tables();
     Context<L> context = Context<L>::of(L::Word{7}, L::Word{9}, L::Word{1}, true);
-    for_each_object(context, count, [&](auto& several, auto x) {
+    for_each_object<count>(context, [&](auto& several, auto x) {
         elements(on, x) = sample::bernoulli(several, {0, x}, at(from.level, x));
         elements(level, x) = at(from.by_number, x, 1) + 1.0;
     });
     Context<Scalar> alone{StreamKey{7, 9}, 1, {}};
     Grid<bool> expected;
-    for_each_object(alone, count, [&](auto& several, auto x) {
+    for_each_object<count>(alone, [&](auto& several, auto x) {
         elements(expected, x) = sample::bernoulli(several, {0, x}, at(from.level, x));
     });
     for (std::size_t i = 0; i < on.size(); ++i) {
@@ -381,7 +435,7 @@ TEST(Objects, HaveFloats) {
     for (std::size_t i = 0; i < p.size(); ++i) p[i] = 0.05f * static_cast<float>(i);
     std::array<bool, 20> draws{};
     Context<ScalarOf<float>> context{stream_key(1, 2, 3), 1, {}}, other = context;
-    for_each_object(context, 20, [&](auto& several, auto x) {
+    for_each_object<20>(context, [&](auto& several, auto x) {
         elements(draws, x) = sample::bernoulli(several, {0, x}, at(p, x));
     });
     for (std::size_t i = 0; i < p.size(); ++i)

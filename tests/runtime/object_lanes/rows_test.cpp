@@ -63,8 +63,8 @@ std::array<R, objects> taken(const Take& take) {
     const auto counts = some_counts();
     Context<ScalarOf<R>> context{stream_key(1, 2, 3), 1, {}};
     std::array<R, objects> values{};
-    for_each_object(context, objects,
-                    [&](auto&, auto x) { elements(values, x) = take(x, at(counts, x)); });
+    for_each_object<objects>(context,
+                             [&](auto&, auto x) { elements(values, x) = take(x, at(counts, x)); });
     return values;
 }
 
