@@ -1,7 +1,6 @@
 #include "planners/cem/cem.hpp"
 
 #include "planners/simulation/mean_and_error.hpp"
-#include "support/failure.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -72,11 +71,7 @@ Cem::Cem(const PlannerContext& context, const CemOptions& options)
         recorder_.emplace(simulator_, *context.base, 1);
         recording_.emplace(simulator_, 1, context.horizon);
     }
-    if (options.tail == Tail::Value) {
-        if (!context.base)
-            throw Failure("tail=value needs a policy: policy=POLICY", {}, usage_error);
-        tail_.emplace(*context.base, futures_.count(), "plan:cem,tail=value");
-    }
+    if (options.tail == Tail::Value) tail_.emplace(*context.base, futures_.count());
     default_numbers_.resize(static_cast<std::size_t>(space_.real_count()));
     default_indices_.resize(static_cast<std::size_t>(space_.index_count()));
     solvers::read_action(space_, space_.defaults.data(), default_numbers_.data(),

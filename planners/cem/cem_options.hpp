@@ -26,6 +26,7 @@ struct CemOptions : CommonOptions {
     double temperature = 0.2;    // of mppi, in deviations of the returns
     Tail tail = Tail::Policy;    // with a policy
     std::optional<double> near;  // part of the budget for plans of two steps
+    const char* option_for_values() const { return tail == Tail::Value ? "tail=value" : nullptr; }
 };
 
 // The correlations of noise, for one plan after the other.
