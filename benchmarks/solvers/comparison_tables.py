@@ -12,7 +12,8 @@ COLUMNS = {"noop": "no-op", "random": "random", "ppo": "PPO", "cgp": "CGP", "cem
 # Why a method has no return: what its message contains, and the word that stands in the table.
 REASONS = (("longer than", "time"), ("memory", "memory"), ("not discrete", "reals"), ("joint actions", "actions"),
            ("outcomes of", "outcomes"), ("combinations of what it draws", "outcomes"), ("lead to a fault", "faults"),
-           ("states can be reached", "states"), ("derivative", "derivatives"))
+           ("states can be reached", "states"), ("derivative", "derivatives"),
+           ("no such actions", "objects"))
 REQUIRED_SHARE = 0.9
 
 
