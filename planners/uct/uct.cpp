@@ -224,7 +224,7 @@ void Uct::note_range() {
 
 double Uct::bonus(const Node& node) const {
     const double left = static_cast<double>(end_ - node.step) / static_cast<double>(end_ - step_);
-    return std::max(exploration_ * std::max(0.0, most_ - least_) * left, 1e-9);
+    return std::max(exploration_ * range_of_returns(least_, most_) * left, 1e-9);
 }
 
 // Actions without a value come first. Then the best by value and by how little it was tried (UCB1).
