@@ -316,7 +316,7 @@ bool HistorySearch::has_edge(Id node, const std::byte* action) const {
 HistorySearch::Id HistorySearch::choose_edge(Id id) {
     const HistoryTree::Node& node = tree().node(id);
     const double range = range_of_returns(least_, most_);
-    const double scale = std::max(options_.exploration * range, 1e-9) *
+    const double scale = std::max(options_.exploration.value_or(usual_exploration) * range, 1e-9) *
                          std::sqrt(std::log(static_cast<double>(node.started) + 1));
     Id chosen = node.first_edge;
     double best = -std::numeric_limits<double>::infinity();

@@ -130,15 +130,34 @@ bool Uct::value_by_determinisation(const DecisionPoint& point, RandomStream& str
     if (!determinised.open(determinised_states_, *typical_steps_, meter)) return false;
     if (!find_later_rewards(point, stream, meter)) return false;
     for (std::size_t n = 0; n < new_nodes_.size(); ++n) {
-        for (const auto& move : determinised.moves(determinised_states_[n]))
-            add_move(new_nodes_[n], move);
         Node& node = tree().node(new_nodes_[n]);
         node.is_open = true;
-        node.twins_at = twins_at(determinised_states_[n]);
-        tree().value_node(node);
+        node.state = determinised_states_[n];
+        node.epoch = memory_->epoch;
+        node.value = value_of_moves(node);
         lock_where_it_stays(point, n, stream, meter);
     }
     return true;
+}
+
+// As the node's edges will have it.
+double Uct::value_of_moves(const Node& node) {
+    double best = -std::numeric_limits<double>::infinity(), sum = 0;
+    const auto moves = memory_->determinised.moves(node.state);
+    for (const auto& move : moves) {
+        const double value = estimate(move, node);
+        best = std::max(best, value);
+        sum += value;
+    }
+    return options_.backup == Backup::Max ? best : sum / static_cast<double>(moves.size());
+}
+
+void Uct::open_edges(NodeId id) {
+    Node& node = tree().node(id);
+    if (node.edge_count > 0) return;
+    for (const auto& move : memory_->determinised.moves(node.state)) add_move(id, move);
+    node.twins_at = twins_at(node.state);
+    tree().value_node(node);
 }
 
 void Uct::add_move(NodeId id, const DeterminisedProblem::Move& move) {

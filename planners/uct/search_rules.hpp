@@ -12,6 +12,11 @@ namespace rddlc::planners {
 // An action is not chosen in the end if it was tried less than this part of the one tried most.
 inline constexpr double least_tried = 0.2;
 
+// How much what was tried less counts, in ranges of the returns, unless the user says so. Where
+// priors and values are those of networks, that is the constant of MuZero (Schrittwieser and
+// others, 2020), whose values lie between 0 and 1.
+inline constexpr double usual_exploration = 0.5, exploration_by_values = 1.25;
+
 // The step up to which a search looks ahead, `depth` steps at most, where `left` remain and the
 // tree of the decision before looked ahead to `known_end`: to the same, if that is far enough
 // ahead.

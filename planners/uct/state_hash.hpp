@@ -2,11 +2,11 @@
 #pragma once
 
 #include "planners/simulation/record_hash.hpp"
+#include "planners/uct/large_pages.hpp"
 
 #include <cstddef>
 #include <cstdint>
 #include <utility>
-#include <vector>
 
 namespace rddlc::planners {
 
@@ -55,13 +55,13 @@ class StateTable {
         return place;
     }
     void grow() {
-        std::vector<Slot> old(2 * slots_.size());
+        LargeVector<Slot> old(2 * slots_.size());
         old.swap(slots_);
         for (const Slot& slot : old)
             if (slot.number != 0) slots_[place_of(slot.key)] = slot;
     }
 
-    std::vector<Slot> slots_;
+    LargeVector<Slot> slots_;
     std::size_t count_ = 0;
 };
 

@@ -14,6 +14,7 @@ void Tree::clear() {
     outcomes_.clear();
     states_.assign(state_size_, std::byte{0});
     ids_.clear();
+    places_.clear();
 }
 
 NodeId Tree::node_of(std::uint64_t key, const std::byte* state, std::int64_t step) {
@@ -82,22 +83,34 @@ std::uint32_t Tree::add_outcome(EdgeId id, NodeId after) {
     Edge& edge = edges_[id];
     Node& node = nodes_[after];
     if (node.edge_before == no_edge) {
-        node.outcome = append_outcome(edge, {after, 0, 0, 0});
+        node.outcome = append_outcome(id, edge, {after, 0, 0, 0});
     } else if (node.edge_before != id) {
-        const auto seen = outcomes(edge);
-        const auto found =
-            std::ranges::find_if(seen, [after](const Outcome& one) { return one.node == after; });
-        node.outcome = found == seen.end() ? append_outcome(edge, {after, 0, 0, 0})
-                                           : static_cast<std::uint32_t>(found - seen.begin());
+        node.outcome = place_of(id, after);
     }
     node.edge_before = id;
     ++outcomes_[edge.first_outcome + node.outcome].started;
     return node.outcome;
 }
 
+std::uint32_t Tree::place_of(EdgeId id, NodeId after) {
+    Edge& edge = edges_[id];
+    const auto seen = outcomes(edge);
+    if (seen.size() <= few_outcomes) {
+        const auto found = std::ranges::find(seen, after, &Outcome::node);
+        if (found != seen.end()) return static_cast<std::uint32_t>(found - seen.begin());
+    } else if (const std::uint32_t* const known = places_.find(outcome_key(id, after))) {
+        return *known - 1;
+    }
+    return append_outcome(id, edge, {after, 0, 0, 0});
+}
+
 // Its place. A full block moves to the end, with as much room again.
-std::uint32_t Tree::append_outcome(Edge& edge, const Outcome& outcome) {
+std::uint32_t Tree::append_outcome(EdgeId id, Edge& edge, const Outcome& outcome) {
     const std::size_t count = edge.outcome_count;
+    if (count == few_outcomes)
+        for (std::uint32_t place = 0; place < count; ++place)
+            list_outcome(id, outcomes(edge)[place].node, place);
+    if (count >= few_outcomes) list_outcome(id, outcome.node, static_cast<std::uint32_t>(count));
     if (count == 0 || std::has_single_bit(count)) {
         const std::size_t first = outcomes_.size();
         outcomes_.resize(first + std::max<std::size_t>(1, 2 * count));
@@ -122,7 +135,7 @@ NodeId Tree::seen_outcome(EdgeId id, double share) const {
 }
 
 std::size_t Tree::bytes() const {
-    return nodes_.size() * (sizeof(Node) + state_size_) + ids_.bytes() +
+    return nodes_.size() * (sizeof(Node) + state_size_) + ids_.bytes() + places_.bytes() +
            edges_.size() * (sizeof(Edge) + sizeof(Arm)) + outcomes_.size() * sizeof(Outcome);
 }
 
@@ -163,7 +176,7 @@ void Tree::keep_below(EdgeId edge) {
                 outcome.node = keep(outcome.node);
                 Node& after = kept.nodes_[outcome.node];
                 after.edge_before = static_cast<EdgeId>(kept.edges_.size());
-                after.outcome = kept.append_outcome(now, outcome);
+                after.outcome = kept.append_outcome(after.edge_before, now, outcome);
             }
             kept.edges_.push_back(now);
             kept.arms_.push_back(arms_[id_of(old)]);

@@ -2,6 +2,7 @@
 // and what came of these. States that are met again at the same step are one node.
 #pragma once
 
+#include "planners/uct/large_pages.hpp"
 #include "planners/uct/state_hash.hpp"
 #include "planners/uct/uct_options.hpp"
 
@@ -11,7 +12,6 @@
 #include <limits>
 #include <span>
 #include <utility>
-#include <vector>
 
 namespace rddlc::planners {
 
@@ -34,7 +34,10 @@ struct Node {
     // is another one only where a state is reached in several ways.
     EdgeId edge_before = no_edge;
     std::uint32_t outcome = 0;
-    bool is_open = false;     // its edges have values
+    // The state in the determinised problem, and what its value was found by: for a node that has
+    // this value, but no edges yet.
+    std::uint32_t state = 0, epoch = 0;
+    bool is_open = false;     // it has a value, and its edges have
     bool is_asked = false;    // its value is on the way
     bool has_priors = false;  // its edges have priors
     // No trial goes on from here: whatever is done, the state and the reward stay, so that the
@@ -117,6 +120,9 @@ class Tree {
     void prefetch(std::uint64_t key) const { ids_.prefetch(key); }
     void prefetch_node(NodeId id) const { __builtin_prefetch(nodes_.data() + id); }
     void prefetch_edge(EdgeId id) const { __builtin_prefetch(edges_.data() + id); }
+    void prefetch_outcome(EdgeId id, NodeId node) const {
+        if (edges_[id].outcome_count > few_outcomes) places_.prefetch(outcome_key(id, node));
+    }
     void prefetch_arms(const Node& node) const {
         const auto* const first = reinterpret_cast<const char*>(arms_.data() + node.first_edge);
         const std::size_t size = std::min<std::size_t>(node.edge_count * sizeof(Arm), 2048);
@@ -153,7 +159,19 @@ class Tree {
     std::span<const Outcome> outcomes(const Edge& edge) const {
         return {outcomes_.data() + edge.first_outcome, edge.outcome_count};
     }
-    std::uint32_t append_outcome(Edge& edge, const Outcome& outcome);
+    // Outcomes of an edge that has no more of them are searched from the first to the last; those
+    // of others are in a table.
+    static constexpr std::uint32_t few_outcomes = 8;
+    static std::uint64_t outcome_key(EdgeId edge, NodeId node) {
+        return scrambled(static_cast<std::uint64_t>(edge) << 32 | node);
+    }
+    // The place of the node among the edge's outcomes, where it is appended if it is new.
+    std::uint32_t place_of(EdgeId id, NodeId node);
+    // `edge` is the one of that number, or becomes it.
+    std::uint32_t append_outcome(EdgeId id, Edge& edge, const Outcome& outcome);
+    void list_outcome(EdgeId id, NodeId node, std::uint32_t place) {
+        places_.add(outcome_key(id, node), place + 1);
+    }
     void reserve_as(const Tree& other);
     void add_weight(Node& node, EdgeId edge, std::int32_t more);
     void add_value_after(Edge& edge, Outcome& outcome);
@@ -161,13 +179,14 @@ class Tree {
     std::size_t state_size_;
     double discount_;
     Backup backup_;
-    std::vector<Node> nodes_;
-    std::vector<Edge> edges_;
-    std::vector<Arm> arms_;  // of edges
+    LargeVector<Node> nodes_;
+    LargeVector<Edge> edges_;
+    LargeVector<Arm> arms_;  // of edges
     // The outcomes of an edge lie together, in a block whose size is a power of two.
-    std::vector<Outcome> outcomes_;
-    std::vector<std::byte> states_;
+    LargeVector<Outcome> outcomes_;
+    LargeVector<std::byte> states_;
     StateTable ids_;
+    StateTable places_;  // of outcomes, from 1, where an edge has many
 };
 
 }  // namespace rddlc::planners

@@ -87,12 +87,15 @@ Uct::Uct(const PlannerContext& context, const UctOptions& options)
                      true),
       discount_(initial_ == Initial::Value ? context.base->value_discount
                                            : simulator_.problem->discount),
+      exploration_(options.exploration.value_or(initial_ == Initial::Value ? exploration_by_values
+                                                                           : usual_exploration)),
       most_bytes_(static_cast<std::size_t>(context.memory_limit) / decision_share),
       most_kept_bytes_(static_cast<std::size_t>(context.memory_limit) / kept_share),
       memories_(context.environments),
       trials_(trees_.running().size()),
       streams_(trials_.size()),
       keys_(trials_.size()),
+      known_(trials_.size()),
       records_(trials_.size() * action_size_),
       states_(trials_.size() * state_size_) {
     const auto lanes = static_cast<std::int64_t>(continuations_.lanes());
@@ -163,8 +166,9 @@ bool Uct::open_root(const DecisionPoint& point, RandomStream& stream, BudgetMete
     most_ = -least_;
     if (is_determinised()) choose_lookahead(meter);
     const NodeId* const known = tree().find(states_.data(), step_);
-    if (known && tree().node(*known).is_open) {
+    if (known && tree().node(*known).is_open && !is_stale(tree().node(*known))) {
         root_ = *known;
+        if (is_determinised()) open_edges(root_);
         note_range();
         confirm_root(point, stream, meter);
         if (is_determinised()) compare_all_twins(point, stream, meter);
@@ -184,6 +188,7 @@ bool Uct::open_root(const DecisionPoint& point, RandomStream& stream, BudgetMete
 bool Uct::value_root(const DecisionPoint& point, RandomStream& stream, BudgetMeter& meter) {
     if (is_determinised()) {
         if (value_new_nodes(point, stream, meter, 1)) {
+            open_edges(root_);
             compare_all_twins(point, stream, meter);
             return true;
         }
@@ -206,7 +211,10 @@ void Uct::choose_lookahead(BudgetMeter& meter) {
     const std::int64_t depth = determinised.affordable_depth(
         determinised.state_of(states_.data()), std::min(end_ - step_, deepest_lookahead),
         std::min(static_cast<std::size_t>(options_.lookahead), affordable), *typical_steps_, meter);
-    if (depth > 0 && depth != determinised.depth()) determinised.set_depth(depth);
+    if (depth > 0 && depth != determinised.depth()) {
+        determinised.set_depth(depth);
+        ++memory_->epoch;
+    }
 }
 
 // The range of returns begins with the values of the root's actions.
@@ -216,7 +224,7 @@ void Uct::note_range() {
 
 double Uct::bonus(const Node& node) const {
     const double left = static_cast<double>(end_ - node.step) / static_cast<double>(end_ - step_);
-    return std::max(options_.exploration * range_of_returns(least_, most_) * left, 1e-9);
+    return std::max(exploration_ * range_of_returns(least_, most_) * left, 1e-9);
 }
 
 // Actions without a value come first. Then the best by value and by how little it was tried (UCB1).
@@ -305,6 +313,7 @@ bool Uct::step_trials(RandomStream& stream, std::int64_t step, BudgetMeter& mete
         const Node& node = tree().node(trial.node);
         trial.is_down = trial.is_down || !node.is_open || node.is_locked;
         if (trial.is_down) continue;
+        if (node.edge_count == 0) open_edges(trial.node);
         const EdgeId edge = choose_edge(node, stream);
         tree().start(trial.node, edge);
         tree().prefetch_edge(edge);
@@ -342,8 +351,19 @@ void Uct::find_keys(std::int64_t step) {
     }
     for (std::size_t k = 0; k < trials_.size(); ++k) {
         if (trials_[k].is_down) continue;
-        if (const NodeId* const known = tree().find(keys_[k])) tree().prefetch_node(*known);
+        const NodeId* const known = tree().find(keys_[k]);
+        known_[k] = known ? *known : Tree::over;
+        if (!known) continue;
+        tree().prefetch_node(*known);
+        tree().prefetch_outcome(trials_[k].hops.back().edge, *known);
     }
+}
+
+// Another trial may have made it since the keys were found.
+NodeId Uct::known_node(std::size_t k) const {
+    if (known_[k] != Tree::over) return known_[k];
+    const NodeId* const known = tree().find(keys_[k]);
+    return known ? *known : Tree::over;
 }
 
 // Follows the trial's environment to the node where it is now.
@@ -354,9 +374,8 @@ void Uct::follow(std::size_t k, RandomStream& stream, std::int64_t step) {
     const std::byte* const state = states_.data() + k * state_size_;
     NodeId next = Tree::over;
     if (trees_.is_running(k) && (step < end_ || goes_on_)) {
-        const NodeId* const known = tree().find(keys_[k]);
-        if (known) {
-            next = *known;
+        if (const NodeId known = known_node(k); known != Tree::over) {
+            next = known;
         } else if (is_full(hop.edge) &&
                    (next = tree().seen_outcome(hop.edge, stream.unit())) != Tree::over) {
             // Progressive widening: the trial goes on from an outcome that was seen before.
@@ -369,6 +388,7 @@ void Uct::follow(std::size_t k, RandomStream& stream, std::int64_t step) {
                 add_edges(next, {trees_.batch(), static_cast<std::int64_t>(k)});
         }
         Node& node = tree().node(next);
+        if (is_stale(node)) node.is_open = false;
         if (!node.is_open && !node.is_asked) {
             node.is_asked = true;
             new_nodes_.push_back(next);
@@ -442,6 +462,10 @@ void Uct::decide(const DecisionPoint& point, std::byte* action, Explanation* exp
 EdgeId Uct::search(const DecisionPoint& point, RandomStream& stream, BudgetMeter& meter) {
     choose_memory(point);
     choose_policy(point, stream, meter);
+    if (policy_ != memory_->policy) {
+        memory_->policy = policy_;
+        ++memory_->epoch;
+    }
     const bool is_open = open_root(point, stream, meter);
     const Node& root = tree().node(root_);
     if (is_open && !root.is_locked && root.edge_count > 1)
@@ -459,11 +483,19 @@ std::int64_t Uct::steps_of_next_trial() const {
 
 // Keeps what the next decision may use, if it is small enough.
 void Uct::keep_below(EdgeId edge) {
-    const std::size_t most = std::min(most_garbage, most_kept_bytes_ / 2);
-    if (tree().bytes() > most) tree().keep_below(edge);
+    // A tree of which all may come again is not copied in each step.
+    const std::size_t most =
+        std::max(std::min(most_garbage, most_kept_bytes_ / 2), 2 * memory_->tree_kept);
+    if (tree().bytes() > most || memory_->bytes() > most_kept_bytes_) {
+        tree().keep_below(edge);
+        memory_->tree_kept = tree().bytes();
+    }
     if (memory_->bytes() <= most_kept_bytes_) return;
     if (tree().bytes() > most_kept_bytes_ / 2) tree().clear();
-    if (memory_->determinised.bytes() > most_kept_bytes_ / 2) memory_->determinised.clear();
+    if (memory_->determinised.bytes() > most_kept_bytes_ / 2) {
+        memory_->determinised.clear();
+        ++memory_->epoch;
+    }
 }
 
 void Uct::note_explanation(Explanation& explanation, EdgeId chosen, const BudgetMeter& meter) {

@@ -50,8 +50,13 @@ class Uct : public Planner {
     struct Memory {
         Tree tree;
         DeterminisedProblem determinised;
-        std::int64_t end = 0;         // the step that the tree looks ahead to
-        std::int64_t deepest = 0;     // the step that trials have come to
+        std::int64_t end = 0;      // the step that the tree looks ahead to
+        std::int64_t deepest = 0;  // the step that trials have come to
+        // Changes with all that values in the determinised problem depend on: its depth, the policy
+        // that plays on, and whether its states are still known.
+        std::uint32_t epoch = 0;
+        std::size_t policy = 0;       // that did so in the decision before
+        std::size_t tree_kept = 0;    // bytes of the tree when it was freed of garbage last
         std::int64_t leaf_depth = 0;  // steps by which a policy values a new state, at most
         std::size_t bytes() const { return tree.bytes() + determinised.bytes(); }
     };
@@ -74,6 +79,8 @@ class Uct : public Planner {
     void cancel_trials();
     void write_actions();
     void find_keys(std::int64_t step);
+    // The node where trial k is; Tree::over: it is new.
+    NodeId known_node(std::size_t k) const;
     void follow(std::size_t k, RandomStream& stream, std::int64_t depth);
     EdgeId choose_edge(const Node& node, RandomStream& stream);
     EdgeId choose_untried(const Node& node, RandomStream& stream);
@@ -103,6 +110,13 @@ class Uct : public Planner {
     bool value_by_policy(const DecisionPoint& point, RandomStream& stream, BudgetMeter& meter,
                          std::size_t draws);
     void add_move(NodeId node, const DeterminisedProblem::Move& move);
+    double value_of_moves(const Node& node);
+    // Most nodes are met once, and need no edges. Adds those of a node that trials go on from.
+    void open_edges(NodeId node);
+    // Whether its edges would have other values than it was valued by.
+    bool is_stale(const Node& node) const {
+        return is_determinised() && node.edge_count == 0 && node.epoch != memory_->epoch;
+    }
     // The weight of a node from which on draws compare twins of its state.
     std::int32_t twins_at(DeterminisedProblem::StateId state) const;
     void compare_twins(NodeId node, const DecisionPoint& point, RandomStream& stream,
@@ -139,8 +153,8 @@ class Uct : public Planner {
     std::size_t policy_ = 0;             // that does
     solvers::ActionPriors priors_;       // of the user's policy; may be empty
     solvers::StateValues state_values_;  // of Initial::Value
-    // Of rewards: the problem's, or that of the values, so that sums of both are comparable.
-    double discount_;
+    double discount_;  // the problem's, or that of the values, which rewards are added to
+    double exploration_;
     bool goes_on_ = false;           // the network values what comes after the end of the search
     std::optional<Futures> judged_;  // new nodes, for these two
     std::optional<TypicalSteps> typical_steps_;  // of Initial::Determinised
@@ -153,6 +167,7 @@ class Uct : public Planner {
     std::vector<Trial> trials_;
     std::vector<std::uint64_t> streams_;
     std::vector<std::uint64_t> keys_;  // of the nodes where trials are
+    std::vector<NodeId> known_;        // these nodes; Tree::over: they are new
     std::vector<std::byte> records_, states_, judged_states_;
     std::vector<std::int64_t> judged_steps_;
     std::vector<float> prior_rows_;

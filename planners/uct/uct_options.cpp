@@ -25,7 +25,8 @@ solvers::OptionTable<UctOptions> make_uct_table() {
             [](auto& o) -> auto& { return o.actions; }, 2, 1 << 20),
         number_option<UctOptions, double>(
             {"exploration", "exploration", "C",
-             "How much actions count that were tried less, in ranges of the returns (0.5)"},
+             "How much actions count that were tried less, in ranges of the returns (0.5; 1.25 "
+             "with initial=value)"},
             [](auto& o) -> auto& { return o.exploration; }, 0.0, 1e6),
         number_option<UctOptions, double>(
             {"outcomes", "outcomes", "K",

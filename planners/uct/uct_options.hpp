@@ -11,10 +11,11 @@ enum class Backup { Max, Mean };
 enum class Initial { Determinised, Lookahead, Rollout, Value };
 
 struct UctOptions : CommonOptions {
-    int lanes = 32;            // trials side by side
-    int actions = 4096;        // at most
-    double exploration = 0.5;  // in ranges of the returns
-    double outcomes = 4;       // of an action that was taken n times, at most outcomes * sqrt(n)
+    int lanes = 32;      // trials side by side
+    int actions = 4096;  // at most
+    // In ranges of the returns; nothing: 0.5, or 1.25 by the values of a policy.
+    std::optional<double> exploration;
+    double outcomes = 4;  // of an action that was taken n times, at most outcomes * sqrt(n)
     // A node with n trials has at most width * n^widening actions, where they cannot be listed.
     double width = 1, widening = 0.5;
     Backup backup = Backup::Max;

@@ -268,8 +268,8 @@ Learner drp(const LoadedProblem& problem, const nb::dict& given) {
     const auto stop = std::make_shared<std::atomic<bool>>(false);
     drp.stops = asks(stop);
     const nb::gil_scoped_release released;
-    return {problem.simulator,
-            solvers::drp_trainee(*problem.simulator, drp, problem.derivatives), stop};
+    return {problem.simulator, solvers::drp_trainee(*problem.simulator, drp, problem.derivatives),
+            stop};
 }
 
 Policy policy_of_text(const LoadedProblem& problem, const std::string& text, bool random,

@@ -55,8 +55,8 @@ Refusals refusals(const rddl_simulator& simulator,
     // CGP ends episodes by itself.
     const auto by_actions = sentence_of([&] { require_choices(simulator); });
     const auto by_end = sentence_of([&] { require_an_end_to_learn(*simulator.problem); });
-    const auto by_gradient = sentence_of(
-        [&] { require_a_gradient_to_learn(simulator, simulator.problem->horizon); });
+    const auto by_gradient =
+        sentence_of([&] { require_a_gradient_to_learn(simulator, simulator.problem->horizon); });
     return {by_end ? by_end : by_actions, by_actions,
             by_actions    ? by_actions
             : by_gradient ? by_gradient

@@ -37,7 +37,7 @@ struct Trainee {
     bool is_evaluated_by_time = false;
     // The first work of a new run. Returns a message about it; may be empty.
     std::function<std::string()> prepare = {};
-    std::function<void()> update;         // a little more work
+    std::function<void()> update;  // a little more work
     // The same in a run that has a time: work that is_late ends. May be empty, where updates are
     // short.
     std::function<void(const Stops& is_late)> update_until = {};

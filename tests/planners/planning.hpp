@@ -102,6 +102,11 @@ inline PolicySettings settings_of(const rddl_simulator& simulator) {
             return policy;
         }
         if (name == "knows the ladder") return policy_that_knows_the_ladder(simulator);
+        if (name == "looks a step ahead") {
+            solvers::Policy policy = policy_that_knows_the_ladder(simulator);
+            policy.value_discount = 0;
+            return policy;
+        }
         throw Failure("there is no policy '" + name + "'");
     };
     return settings;

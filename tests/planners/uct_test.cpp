@@ -231,6 +231,9 @@ TEST(Uct, ValuesNewStatesByTheValuesOfAPolicy) {
     // It is the default where the policy has values.
     EXPECT_EQ(plan.returns(),
               run(ladder(), "plan:uct,iterations=4000,policy=knows the ladder", 20).returns());
+    // Rewards on the way are discounted as the values are: to stay pays 1 in each step.
+    const Played greedy = run(ladder(), "plan:uct,iterations=100,policy=looks a step ahead");
+    EXPECT_EQ(greedy.thought(0, 0).candidates.at(0).value, 1);
     // Without a trial the policy's likeliest action is taken.
     const Played none = run(ladder(), "plan:uct,steps=2,policy=knows the ladder,initial=value");
     EXPECT_EQ(none.mean(), 4);

@@ -86,6 +86,26 @@ TEST(DeterminisedProblem, MakesMovesOfTwinsThatDiffer) {
     EXPECT_EQ(problem.moves(start).size(), 2u);
 }
 
+// Where an edge has many outcomes, a table has their places.
+TEST(Tree, FindsEachOfManyOutcomes) {
+    constexpr std::int32_t count = 40;
+    Tree tree(sizeof(std::int32_t), 1, Backup::Max);
+    tree.clear();
+    const auto node_of = [&tree](std::int32_t state, std::int64_t step) {
+        return tree.node_of(reinterpret_cast<const std::byte*>(&state), step);
+    };
+    const NodeId root = node_of(0, 0);
+    const EdgeId edges[] = {tree.add_edge(root, 0), tree.add_edge(root, 1)};
+    for (int round = 0; round < 3; ++round)
+        for (std::int32_t state = 0; state < count; ++state)
+            for (const EdgeId edge : edges) {
+                tree.start(root, edge);
+                const std::uint32_t place = tree.add_outcome(edge, node_of(state, 1));
+                EXPECT_EQ(place, static_cast<std::uint32_t>(state));
+            }
+    for (const EdgeId edge : edges) EXPECT_EQ(tree.edge(edge).outcome_count, count);
+}
+
 // Edges that are added later leave those that there are as they were.
 TEST(Tree, AddsEdgesLater) {
     Tree tree(8, 1, Backup::Max);

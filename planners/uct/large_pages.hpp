@@ -1,0 +1,44 @@
+// Memory of large arrays in pages of two megabytes, where the system has them: a tree that is read
+// here and there asks for another page at nearly every access, and small ones are many.
+#pragma once
+
+#include <sys/mman.h>
+
+#include <cstddef>
+#include <cstdlib>
+#include <new>
+#include <vector>
+
+namespace rddlc::planners {
+
+template <class T>
+struct LargePages {
+    using value_type = T;
+    static constexpr std::size_t page = std::size_t{2} << 20;
+
+    LargePages() = default;
+    template <class Other>
+    LargePages(const LargePages<Other>&) {}
+
+    T* allocate(std::size_t count) {
+        const std::size_t bytes = count * sizeof(T);
+        if (bytes < page) return static_cast<T*>(::operator new(bytes));
+        const std::size_t whole = (bytes + page - 1) / page * page;
+        void* const memory = std::aligned_alloc(page, whole);
+        if (!memory) throw std::bad_alloc();
+        madvise(memory, whole, MADV_HUGEPAGE);  // small pages do as well
+        return static_cast<T*>(memory);
+    }
+    void deallocate(T* memory, std::size_t count) {
+        if (count * sizeof(T) < page)
+            ::operator delete(memory);
+        else
+            std::free(memory);
+    }
+    bool operator==(const LargePages&) const { return true; }
+};
+
+template <class T>
+using LargeVector = std::vector<T, LargePages<T>>;
+
+}  // namespace rddlc::planners
