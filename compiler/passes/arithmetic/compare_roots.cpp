@@ -55,18 +55,11 @@ class RootComparison {
         const auto* apply = std::get_if<ir::Apply>(&node.form);
         if (!apply || node.type != ir::Scalar::Real) return false;
         const ir::NodeId a = apply->operands.front(), b = apply->operands.back();
-        switch (apply->op) {
-            case Operator::Add:
-                return is_never_negative(a) && is_never_negative(b);
-            case Operator::Multiply:
-                return a == b || (is_never_negative(a) && is_never_negative(b));
-            case Operator::Power:
-                return ir::constant<double>(program(), b) == 2.0;
-            case Operator::Abs:
-                return true;
-            default:
-                return false;
-        }
+        if (apply->op == Operator::Power) return ir::constant<double>(program(), b) == 2.0;
+        if (apply->op == Operator::Multiply && a == b) return true;
+        const bool keeps_sign = apply->op == Operator::Add || apply->op == Operator::Multiply;
+        return apply->op == Operator::Abs ||
+               (keeps_sign && is_never_negative(a) && is_never_negative(b));
     }
 
     // Whether the condition is `value == 0`.
