@@ -104,8 +104,14 @@ bool ObjectLanes::is_at_own_place(const ir::Element& element) const {
 }
 
 bool ObjectLanes::can_store(const ir::Store& store) const {
-    return store.indices.size() == nest_.variables.size() &&
-           ir::begins_with(program_, store.indices, nest_) && can_evaluate(store.value);
+    return store.indices.size() == nest_.variables.size() && can_store_in_row(store);
+}
+
+bool ObjectLanes::can_store_in_row(const ir::Store& store) const {
+    if (!ir::ends_with(program_, store.indices, nest_)) return false;
+    const auto row = std::span(store.indices).first(store.indices.size() - nest_.variables.size());
+    return std::ranges::all_of(row, [&](ir::NodeId index) { return is_same(index); }) &&
+           can_evaluate(store.value);
 }
 
 }  // namespace rddlc::passes
