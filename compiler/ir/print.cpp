@@ -335,7 +335,8 @@ class Printer {
         return program_[form.variable].name;
     }
     std::string text(const Load& form, Scalar, Precedence) const {
-        constexpr std::string_view how[] = {"", "adjacent ", "in row ", "rows ", "own "};
+        constexpr std::string_view how[] = {"",      "adjacent ", "in row ",
+                                            "rows ", "own ",      "chances "};
         return fmt::format("{}{}", how[static_cast<std::size_t>(form.gather)],
                            element(form.buffer, form.indices));
     }

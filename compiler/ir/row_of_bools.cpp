@@ -11,7 +11,7 @@ namespace rddlc::ir {
 namespace {
 
 // The jump at the end of a loop over true elements takes as long as some terms.
-constexpr std::int64_t fewest_in_row = 16;
+constexpr std::int64_t fewest_in_row = 8;
 
 bool is_zero(const Node& node) {
     const auto* constant = std::get_if<Constant>(&node.form);

@@ -364,8 +364,9 @@ Expression Expressions::elements(Expression table, std::span<const ir::NodeId> i
 
 Expression Expressions::target(ir::BufferId buffer, const std::vector<ir::NodeId>& indices) {
     uses_.stored.insert(unit_.program[buffer].storage);
-    if (several_) return tree::call("rddl::elements", {record(buffer), word(several_->objects)});
-    return elements(record(buffer), indices);
+    if (!several_) return elements(record(buffer), indices);
+    const auto row = std::span(indices).first(indices.size() - several_->nest.variables.size());
+    return tree::call("rddl::elements", {elements(record(buffer), row), word(several_->objects)});
 }
 
 Expression Expressions::view(const ir::TableView& view, bool is_written) {
@@ -429,6 +430,9 @@ Expression Expressions::element_of(const ir::Load& load) {
             return element_of_row(load);
         case ir::Gather::Own:
             return of_objects("rddl::at_own", record(load.buffer), indices);
+        case ir::Gather::Chances:
+            return tree::call("rddl::chances<" + unit_.names.buffers[load.buffer.index] + ">",
+                              {word(several_->objects)});
         case ir::Gather::None:
             break;
     }

@@ -20,6 +20,10 @@ namespace {
 constexpr double cost_of_entry = 3;
 // A loop over all objects is fine if it costs no more than this.
 constexpr double cheap_loop = 12;
+// A test whether factors are finite, and sparse sums, must take less than this part of dense ones.
+constexpr double worthwhile_tests = 0.5;
+// Operations of testing a factor, besides its own.
+constexpr double cost_of_test = 2;
 // Rows beyond this number must have entries.
 constexpr double most_empty_rows = 1e6;
 // The entries of all aggregations: each takes a few numbers in the emitted text.
@@ -94,10 +98,19 @@ class Rewriting {
     }
 
     ir::NodeId rebuilt(ir::NodeId id, Scope& scope) {
-        ir::Node node = program_[id];
-        if (std::holds_alternative<ir::Reduce>(node.form)) {
+        if (std::holds_alternative<ir::Reduce>(program_[id].form)) {
             if (const auto sparse = made_sparse(id, scope)) return *sparse;
         }
+        const auto* select = std::get_if<ir::Select>(&program_[id].form);
+        if (select && select->evaluated == ir::Evaluated::MostlyFirst && !scope.outer) {
+            const auto [condition, then_value, else_value, evaluated] = *select;
+            const ir::NodeId tested = rewritten(condition, scope);
+            return builder_.select(tested, rewritten(then_value, scope), else_value, evaluated);
+        }
+        return dense(id, scope);
+    }
+    ir::NodeId dense(ir::NodeId id, Scope& scope) {
+        ir::Node node = program_[id];
         ir::change_operands(node,
                             [&](ir::NodeId& operand) { operand = rewritten(operand, scope); });
         return builder_.rebuild(node);
@@ -185,7 +198,9 @@ class Rewriting {
         std::vector<ir::NodeId> doubtful;
         std::optional<Relation> found = pattern_.of(nest->body, *neutral);
         if (!found && reduce.op == Reduction::Sum) found = pattern_.of_term(reduce.body, doubtful);
-        if (!found || pattern_.depend(doubtful, reduce.variable)) return std::nullopt;
+        if (!found) return std::nullopt;
+        if (pattern_.depend(doubtful, reduce.variable))
+            return sparse_if_finite(id, *found, doubtful, outer);
         Scope scope = scope_for(*found, nest->variables, outer);
         if (!doubtful.empty() && !lacks_entries_in_each_row(scope)) return std::nullopt;
         if (found->tuples.empty())
@@ -199,6 +214,53 @@ class Rewriting {
         ++report_["aggregations made sparse"];
         name(scope, body);
         return with_terms_left_out(over_entries(nest->op, body, scope), doubtful, outer);
+    }
+
+    // Factors that depend on the variable of a sum alone are tested once for all rows: if all of
+    // them are finite, as they mostly are, the terms that are left out are zeros. In the program
+    // for moderate values alone, since the other one need not be fast then.
+    std::optional<ir::NodeId> sparse_if_finite(ir::NodeId id, const Relation& found,
+                                               const std::vector<ir::NodeId>& doubtful,
+                                               Scope& outer) {
+        const auto [op, variable, body, bounds, over_true] =
+            std::get<ir::Reduce>(program_[id].form);
+        Scope scope = scope_for(found, {variable}, outer);
+        const auto is_of_columns = [&, only = variable](ir::NodeId factor) {
+            const ir::Properties& properties = builder_.properties(factor);
+            return properties.free_variables == std::vector{only} && !properties.random;
+        };
+        if (!program_.only_moderate || outer.outer || found.tuples.empty() ||
+            scope.relation.count() > entries_left_ ||
+            !std::ranges::all_of(doubtful, is_of_columns) || !is_worthwhile(scope, body) ||
+            !are_tests_worthwhile(scope, body, doubtful))
+            return std::nullopt;
+        entries_left_ -= scope.relation.count();
+        ++report_["aggregations made sparse for finite factors"];
+        name(scope, body);
+        std::vector<ir::NodeId> are_finite;
+        for (const ir::NodeId factor : doubtful) {
+            const ir::NodeId zero = builder_.constant(0.0);
+            const ir::NodeId term = builder_.apply(Operator::Multiply, {zero, factor});
+            const ir::NodeId is_zero = builder_.apply(Operator::Equal, {term, zero});
+            are_finite.push_back(builder_.reduce(Reduction::ForAll, variable, is_zero));
+        }
+        ir::NodeId all = are_finite.front();
+        for (const ir::NodeId is_finite : std::span(are_finite).subspan(1))
+            all = builder_.apply(Operator::And, {all, is_finite});
+        const ir::NodeId sparse = over_entries(op, body, scope);
+        return builder_.select(all, sparse, dense(id, outer), ir::Evaluated::MostlyFirst);
+    }
+
+    bool are_tests_worthwhile(const Scope& scope, ir::NodeId body,
+                              const std::vector<ir::NodeId>& doubtful) const {
+        const double cost = builder_.properties(body).cost + 1;
+        const auto columns = static_cast<double>(*volume(scope.columns()));
+        double tests = 0;
+        for (const ir::NodeId factor : doubtful)
+            tests += columns * (builder_.properties(factor).cost + cost_of_test);
+        const double sparse = static_cast<double>(scope.relation.count()) * (cost + cost_of_entry);
+        const double dense = static_cast<double>(*rows_of(scope)) * columns * cost;
+        return tests + sparse < worthwhile_tests * dense;
     }
 
     // A term that is left out is zero times each of these: it is nan where one is not finite. Else

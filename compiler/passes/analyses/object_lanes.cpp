@@ -109,10 +109,16 @@ bool ObjectLanes::is_at_own_place(const ir::Element& element) const {
 
 // Axes of a single object before those of the nest change no place.
 bool ObjectLanes::can_store(const ir::Store& store) const {
-    if (!ir::ends_with(program_, store.indices, nest_)) return false;
+    if (!can_store_in_row(store)) return false;
     const auto& shape = program_[store.target].shape;
     const auto own = shape.end() - static_cast<std::ptrdiff_t>(nest_.variables.size());
-    return std::all_of(shape.begin(), own, [](std::int64_t size) { return size == 1; }) &&
+    return std::all_of(shape.begin(), own, [](std::int64_t size) { return size == 1; });
+}
+
+bool ObjectLanes::can_store_in_row(const ir::Store& store) const {
+    if (!ir::ends_with(program_, store.indices, nest_)) return false;
+    const auto row = std::span(store.indices).first(store.indices.size() - nest_.variables.size());
+    return std::ranges::all_of(row, [&](ir::NodeId index) { return is_same(index); }) &&
            can_evaluate(store.value);
 }
 

@@ -25,7 +25,9 @@ class ObjectLanes {
     // Too few iterations, which give such values, do not fill the registers.
     bool are_enough(ir::Scalar scalar) const;
     bool can_evaluate(ir::NodeId id) const;
+    // Into elements of these objects, in a table of theirs or in a row that is the same for all.
     bool can_store(const ir::Store& store) const;
+    bool can_store_in_row(const ir::Store& store) const;
 
   private:
     bool can_index(ir::BufferId buffer, const std::vector<ir::NodeId>& indices) const;

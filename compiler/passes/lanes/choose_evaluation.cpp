@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <map>
 #include <optional>
 #include <span>
@@ -19,6 +20,8 @@ namespace {
 
 // In operations (Properties::cost): what packs may compute for all lanes though no lane needs it.
 constexpr double most_without_jumps = 128;
+// C++ compilers take time to look through longer tables.
+constexpr std::int64_t most_chances = 4096;
 
 // ----------------------------------------------------------------- loads of several objects
 
@@ -37,9 +40,14 @@ class Gathering {
     void gather_in(ir::Block& block) {
         for (ir::Statement& statement : block) {
             auto* const loop = std::get_if<ir::Loop>(&statement.form);
-            if (!loop || !loop->several_at_once) continue;
+            if (!loop) continue;
+            if (!loop->several_at_once) {
+                gather_in(loop->body);
+                continue;
+            }
             const ir::Nest nest = ir::nest_of(*loop);
             std::map<ir::NodeId, ir::NodeId> known;
+            are_words_ = loop->as_words;
             ir::change_roots(ir::innermost_body(*loop), [&](ir::NodeId& id) {
                 if (!std::holds_alternative<ir::Index>(program_[id].form))
                     id = gathered(id, nest, known);
@@ -49,20 +57,40 @@ class Gathering {
 
     ir::NodeId gathered(ir::NodeId id, const ir::Nest& nest,
                         std::map<ir::NodeId, ir::NodeId>& known) {
-        return ir::replace_in(builder_, id, known,
-                              [&](ir::NodeId each) -> std::optional<ir::NodeId> {
-                                  const auto* load = std::get_if<ir::Load>(&program_[each].form);
-                                  if (!load || load->gather != ir::Gather::None)
-                                      return std::nullopt;
-                                  const ir::Gather gather = gather_of(*load, nest);
-                                  if (gather == ir::Gather::None) return each;
-                                  ++report_["loads of several objects"];
-                                  const ir::BufferId buffer = load->buffer;
-                                  std::vector<ir::NodeId> indices = load->indices;
-                                  for (ir::NodeId& index : indices)
-                                      index = gathered(index, nest, known);
-                                  return builder_.load(buffer, std::move(indices), gather);
-                              });
+        return ir::replace_in(
+            builder_, id, known, [&](ir::NodeId each) -> std::optional<ir::NodeId> {
+                if (const auto* sample = std::get_if<ir::Sample>(&program_[each].form))
+                    return drawn(each, *sample, nest);
+                const auto* load = std::get_if<ir::Load>(&program_[each].form);
+                if (!load || load->gather != ir::Gather::None) return std::nullopt;
+                const ir::Gather gather = gather_of(*load, nest);
+                if (gather == ir::Gather::None) return each;
+                ++report_["loads of several objects"];
+                const ir::BufferId buffer = load->buffer;
+                std::vector<ir::NodeId> indices = load->indices;
+                for (ir::NodeId& index : indices) index = gathered(index, nest, known);
+                return builder_.load(buffer, std::move(indices), gather);
+            });
+    }
+
+    // A draw in a loop as words, whose probabilities become chances.
+    std::optional<ir::NodeId> drawn(ir::NodeId id, ir::Sample sample, const ir::Nest& nest) {
+        const auto* load = std::get_if<ir::Load>(&program_[sample.parameters.front()].form);
+        if (!are_words_ || !load || !are_chances(*load, nest)) return std::nullopt;
+        ++report_["draws that are known where they are certain"];
+        const ir::BufferId table = load->buffer;
+        const ir::NodeId p = builder_.load(table, load->indices, ir::Gather::Chances);
+        return builder_.sample(program_[id].type, sample.distribution, sample.place, {p});
+    }
+    bool are_chances(const ir::Load& load, const ir::Nest& nest) const {
+        const ir::Buffer& table = program_[load.buffer];
+        const auto is_random = [](const ir::Value& p) {
+            return std::get<double>(p) > 0 && std::get<double>(p) < 1;
+        };
+        return load.gather == ir::Gather::None && is_constant(load.buffer) &&
+               load.indices.size() == nest.variables.size() &&
+               ir::begins_with(program_, load.indices, nest) && table.count() <= most_chances &&
+               !table.values.all_of(is_random);
     }
 
     ir::Gather gather_of(const ir::Load& load, const ir::Nest& nest) const {
@@ -99,6 +127,7 @@ class Gathering {
     ir::Program program_;
     Report& report_;
     ir::Builder builder_;
+    bool are_words_ = false;  // the values of the loop
 };
 
 // -------------------------------------------------------------------------------- choices

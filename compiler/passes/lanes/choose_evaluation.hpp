@@ -16,6 +16,8 @@
 //     state.open[y, x]         =>  in row state.open[y, x]
 //     HEAT[KIND[x], count]     =>  rows HEAT[adjacent KIND[x], count]
 //     state.on[NEXT[x]]        =>  own state.on[adjacent NEXT[x]]
+//     sample bernoulli@0[x](RATE[x])
+//                              =>  sample valid bernoulli@0[x](chances RATE[x])
 #pragma once
 
 #include "ir/ir.hpp"

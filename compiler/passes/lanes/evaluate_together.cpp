@@ -25,15 +25,18 @@ class Marking {
     explicit Marking(const ir::Program& program)
         : program_(program), properties_(ir::all_properties(program)) {}
 
-    std::int64_t mark(ir::Block& block) const {
+    // The outermost loops that can be, and the loops inside of others, whose objects are in a row.
+    std::int64_t mark(ir::Block& block, bool is_inside = false) const {
         std::int64_t marked = 0;
         for (ir::Statement& statement : block) {
             auto* const loop = std::get_if<ir::Loop>(&statement.form);
             if (!loop) continue;
-            const bool was_marked =
-                std::exchange(loop->several_at_once, is_worth_it(*loop) && is_possible(*loop));
+            const bool is_right =
+                is_worth_it(*loop) && is_possible(*loop) && !(is_inside && computes_ints(*loop));
+            const bool was_marked = std::exchange(loop->several_at_once, is_right);
             loop->as_words = loop->several_at_once && is_of_words(*loop);
             marked += loop->several_at_once && !was_marked;
+            if (!loop->several_at_once) marked += mark(loop->body, true);
         }
         return marked;
     }
@@ -75,6 +78,20 @@ class Marking {
             return program_[operand].type == ir::Scalar::Real || is_worth_it(operand);
         });
     }
+    // C++ compilers put loops that compare ints into registers themselves, if they are short.
+    bool computes_ints(const ir::Loop& loop) const {
+        const ir::Nest nest = ir::nest_of(loop);
+        const std::vector<ir::NodeId> roots = ir::roots_of(*nest.body);
+        return std::ranges::any_of(roots, [&](ir::NodeId root) { return computes_ints(root); });
+    }
+    bool computes_ints(ir::NodeId id) const {
+        const ir::Node& node = program_[id];
+        if (ir::buffer_read_by(node)) return node.type == ir::Scalar::Int;
+        if (node.type == ir::Scalar::Int && std::holds_alternative<ir::Apply>(node.form))
+            return true;
+        return std::ranges::any_of(ir::operands_of(node),
+                                   [&](ir::NodeId operand) { return computes_ints(operand); });
+    }
     double cost_of(ir::NodeId id) const { return properties_[id.index].cost; }
 
     bool is_possible(const ir::Loop& loop) const {
@@ -88,7 +105,7 @@ class Marking {
                 [&](const ir::Store& store) {
                     return (several.are_enough(program_[store.target].scalar) ||
                             are_expensive(nest, store)) &&
-                           several.can_store(store);
+                           several.can_store_in_row(store);
                 },
                 [](const auto&) { return false; });
         });

@@ -22,6 +22,7 @@ struct Use {
     bool is_root = false;
     bool always = false;     // evaluated whenever the statement is
     bool repeated = false;   // below a loop of the statement, or a reduction
+    bool is_test = false;    // decides between a cheap and a dear way
     double repetitions = 1;  // by these loops and reductions
     int count = 0;           // by different nodes, or twice by one
 };
@@ -118,6 +119,7 @@ class Sharing {
                 used.repetitions =
                     std::max(used.repetitions, use.repetitions * repetitions_of(node, operand));
                 used.always |= use.always && !is_lazy(node, operand);
+                used.is_test |= is_test(node, operand);
             }
         }
     }
@@ -127,6 +129,12 @@ class Sharing {
         return select && operand != select->condition &&
                ir::is_lazy(program_, *select, builder_.properties(select->then_value),
                            builder_.properties(select->else_value));
+    }
+
+    static bool is_test(const ir::Node& node, ir::NodeId operand) {
+        const auto* select = std::get_if<ir::Select>(&node.form);
+        return select && select->evaluated == ir::Evaluated::MostlyFirst &&
+               operand == select->condition;
     }
 
     static bool is_body(const ir::Node& node, ir::NodeId operand) {
@@ -146,11 +154,11 @@ class Sharing {
     }
 
     // A Let may compute this though no evaluation needs it: it costs no more than the loop around,
-    // which computes something each time.
+    // which computes something each time, or decides that the loop has less work.
     bool may_be_in_vain(ir::NodeId id, const Use& use) const {
         const ir::Properties& properties = builder_.properties(id);
         return use.repeated && !properties.may_fault && !properties.random &&
-               properties.cost <= use.repetitions;
+               (properties.cost <= use.repetitions || use.is_test);
     }
 
     // ------------------------------------------------------------------------ choosing

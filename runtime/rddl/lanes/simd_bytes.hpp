@@ -178,4 +178,40 @@ template <std::int64_t size, class Place>
     return bits;
 }
 
+// Whether one of these bytes is not 0. They may have been stored just now, as those of
+// bits_of_stored_bytes.
+template <int count>
+[[gnu::always_inline]] inline bool is_any_stored_byte(const void* bytes) {
+    const auto* next = static_cast<const char*>(bytes);
+    TwoWords all{};
+    for (int i = 0; i + 16 <= count; i += 16, next += 16) {
+        TwoWords some;
+        __builtin_memcpy(&some, next, sizeof some);
+        all |= some;
+    }
+    std::uint64_t rest = all[0] | all[1];
+    const auto add = [&](auto part) __attribute__((always_inline)) {
+        if ((count & static_cast<int>(sizeof part)) == 0) return;
+        __builtin_memcpy(&part, next, sizeof part);
+        rest |= part;
+        next += sizeof part;
+    };
+    add(std::uint64_t{});
+    add(std::uint32_t{});
+    add(std::uint16_t{});
+    add(std::uint8_t{});
+    return rest != 0;
+}
+// The lowest bits at these places, in their order.
+[[gnu::always_inline]] inline std::uint64_t deposited(std::uint64_t bits, std::uint64_t places) {
+#ifdef __BMI2__
+    return __builtin_ia32_pdep_di(bits, places);
+#else
+    std::uint64_t all = 0;
+    for (; places != 0; places &= places - 1, bits >>= 1)
+        if (bits & 1) all |= places & -places;
+    return all;
+#endif
+}
+
 }  // namespace rddl::simd::inline RDDL_SIMD_LEVEL

@@ -5,6 +5,7 @@
 // need them.
 #pragma once
 
+#include <rddl/object_lanes/chances.hpp>
 #include <rddl/object_lanes/many_bools.hpp>
 #include <rddl/object_lanes/objects.hpp>
 #include <rddl/random/random.hpp>
@@ -85,6 +86,10 @@ RDDL_INLINE auto at_places(const Table& table, const ManyObjects<n, L>& objects)
             elements, first,
             lines_of_places<places, Many::part_width>.data() + objects.first / Many::part_width);
 }
+template <const auto& table, int n, class L>
+RDDL_INLINE auto chances(const ManyObjects<n, L>& objects) {
+    return ChancesOfMany<table>{objects.first};
+}
 template <class Table, int n, class L>
 RDDL_INLINE auto elements(Table& table, const ManyObjects<n, L>& objects) {
     return ElementsOfMany<typename L::Bool, n>{&detail::first_part<0>(table) + objects.first};
@@ -153,6 +158,26 @@ template <class R>
 RDDL_INLINE R real_of(const RealsInMemory<R>& reals, int object) {
     return reals.first[object];
 }
+template <const auto& table>
+RDDL_INLINE auto in_memory(const ChancesOfMany<table>& chances) {
+    return RealsInMemory<RealOf<table>>{&first_part<0>(table) + chances.first};
+}
+template <class Real>
+RDDL_INLINE const Real& in_memory(const Real& reals) {
+    return reals;
+}
+
+// Whether the numbers of n objects are made for the pairs that need them.
+template <class Probability, int n>
+inline constexpr bool are_by_pairs = false;
+template <const auto& table, int n>
+inline constexpr bool are_by_pairs<ChancesOfMany<table>, n> =
+    count_of<table> == n && (RandomPairs<table>::register_count < RandomPairs<table>::chunk_count ||
+                             RandomPairs<table>::register_count == 0);
+template <class Probability>
+inline constexpr bool may_be_certain = false;
+template <const auto& table>
+inline constexpr bool may_be_certain<ChancesOfMany<table>> = has_certain_chances<table>;
 
 // Which of 64 objects of one environment, from `first` on, draw a number below p: of those that are
 // wanted. The numbers are made for 16 neighbours at once.
@@ -184,9 +209,15 @@ RDDL_INLINE ManyBools<bool, n> drawn(Context<ScalarOf<R>>& context, Place place,
         const std::uint64_t there = ~std::uint64_t{0} >> (64 - count);
         bits[first / 64] |= (simd::nonzero_bytes(wanted.part[part]) & there) << first % 64;
     });
-    for (std::size_t w = 0; w < words; ++w)
-        if (bits[w] != 0)
-            bits[w] = drawn_bits(context, place, static_cast<int>(64 * w), bits[w], p);
+    if constexpr (are_by_pairs<Probability, n>) {
+        const auto drawn = drawn_by_pairs(context, place, p, bits);
+        for (std::size_t w = 0; w < words; ++w) bits[w] &= drawn[w];
+    } else {
+        for (std::size_t w = 0; w < words; ++w)
+            if (bits[w] != 0)
+                bits[w] =
+                    drawn_bits(context, place, static_cast<int>(64 * w), bits[w], in_memory(p));
+    }
     return Many::of_parts([&]<int part, int>() RDDL_INLINE_LAMBDA {
         constexpr int first = part * Many::part_width;
         return simd::bytes_for_bits<typename Many::Vector>(bits[first / 64] >> first % 64);
@@ -202,8 +233,13 @@ RDDL_INLINE ManyBools<Mask<lanes>, n> drawn(Context<Pack<lanes, R>>& context, Pl
     for (int k = 0; k < n; ++k) {
         Mask<lanes>& mask = masks[static_cast<std::size_t>(k)];
         if (!any(mask)) continue;
+        const auto& chance = real_of(in_memory(p), k);
+        if (may_be_certain<Probability> && is_certain(chance)) {
+            mask = mask && chance > 0;
+            continue;
+        }
         const Place of_object(place.site, place.index + k, place.series);
-        mask = uniform_below(context, of_object, mask, real_of(p, k));
+        mask = uniform_below(context, of_object, mask, chance);
     }
     return load_many<n>(masks.data());
 }
@@ -285,11 +321,12 @@ RDDL_INLINE void for_affected_objects(Context<ScalarOf<R>>& context, const Few& 
                                       const auto& rows, const auto& objects, Table& target,
                                       Body&& body) {
     constexpr int most_true = static_cast<int>(count / 16);
+    assign(target, false);
+    if (!is_any_true(few)) return;
     const auto words = words_of(few);
     int true_count = 0;
     for (const std::uint64_t bits : words) true_count += __builtin_popcountll(bits);
     if (true_count > most_true) return for_many_objects<count>(context, body);
-    assign(target, false);
     Index first = 0;
     for (std::uint64_t bits : words) {
         for (; bits != 0; bits &= bits - 1) {

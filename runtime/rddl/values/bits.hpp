@@ -4,6 +4,7 @@
 #include <rddl/lanes/lane.hpp>
 #include <rddl/lanes/pack.hpp>
 #include <rddl/lanes/simd.hpp>
+#include <rddl/lanes/simd_bytes.hpp>
 #include <rddl/values/bool_rows.hpp>
 #include <rddl/values/pack_ops.hpp>
 
@@ -72,6 +73,12 @@ RDDL_INLINE auto words_of(const Table& table) {
             static_cast<std::uint64_t>(bits<Index{64 * word}>(table))...};
     }
     (std::make_index_sequence<count>());
+}
+// Whether one element at least is true in a table of one environment.
+template <class Table>
+RDDL_INLINE bool is_any_true(const Table& table) {
+    return simd::is_any_stored_byte<static_cast<int>(detail::element_count<Table>)>(
+        detail::first_element(table));
 }
 // The bits of the caller's actions.
 template <Index first = 0, class Table>

@@ -123,6 +123,29 @@ TEST(MakeAggregationsSparse, HasOneTermForAllThatMayNotBeFinite) {
     EXPECT_EQ(exactly_sparse(with_links(other)), value_of_x(grounded(with_links(other))));
 }
 
+// Where factors differ between terms, one test tells whether all of them are finite.
+TEST(MakeAggregationsSparse, TestsOnceWhetherAllFactorsAreFinite) {
+    const auto with_row = [](const std::string& terms) {
+        Problem problem = with_links("sum_{?o : obj} [v(?o) * (sum_{?u : obj} [" + terms + "])]");
+        problem.pvariables += "ROW(obj, obj) : { non-fluent, real, default = 0.0 };\n";
+        problem.non_fluents += "ROW(b2, b3) = 4.5;";
+        return problem;
+    };
+    const Problem of_columns = with_row("ROW(?o, ?u) * (1.0 / v(?u)) * v(?u) * v(?u) * v(?u)");
+    EXPECT_EQ(value_of_x(made_sparse(of_moderate_values(of_columns))),
+              "sum[o in obj](state.v[o] * select mostly first("
+              "forall[u in obj](0.0 * (1.0 / state.v[u]) == 0.0), "
+              "sum[entry in ROW-rows[o] .. ROW-rows[o + 1]]("
+              "4.5 * (1.0 / state.v[2]) * state.v[2] * state.v[2] * state.v[2]), "
+              "sum[u in obj](ROW[o, u] * (1.0 / state.v[u]) * state.v[u] * state.v[u] * "
+              "state.v[u])))");
+    EXPECT_EQ(exactly_sparse(of_columns), value_of_x(grounded(of_columns)))
+        << "there is a program for moderate values";
+    const Problem of_both = with_row("ROW(?o, ?u) * (v(?o) / v(?u)) * v(?u) * v(?u) * v(?u)");
+    EXPECT_EQ(value_of_x(made_sparse(of_moderate_values(of_both))),
+              value_of_x(of_moderate_values(of_both)));
+}
+
 // The product is zero if x is zero, whatever the exponential is.
 TEST(MakeAggregationsSparse, LeavesOtherFactorsOfGuardedProducts) {
     const Problem problem = with_links("sum_{?o : obj} [COST(?o) * exp[exp[n]] * x]");

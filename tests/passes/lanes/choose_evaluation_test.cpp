@@ -17,6 +17,7 @@ std::string chosen(const std::string& cpf_of_v, const std::string& type = "real"
             "KIND(obj, obj) : { non-fluent, obj };\n"
             "P(obj, obj) : { non-fluent, real, default = 0.5 };\n"
             "T(obj, obj) : { non-fluent, real, default = 1.0 };\n"
+            "CHANCE(obj, obj) : { non-fluent, real, default = 1.0 };\n"
             "v(obj, obj) : { state-fluent, " +
             type + ", default = " + initial +
             " };\n"
@@ -28,7 +29,7 @@ std::string chosen(const std::string& cpf_of_v, const std::string& type = "real"
             "P(b1, b2) = 0.25; "
             "KIND(b1, b1) = @b2; KIND(b1, b2) = @b3; KIND(b1, b3) = @b1; KIND(b2, b1) = @b3; "
             "KIND(b2, b2) = @b2; KIND(b2, b3) = @b1; KIND(b3, b1) = @b1; KIND(b3, b2) = @b1; "
-            "KIND(b3, b3) = @b1; T(b1, b2) = 2.0;",
+            "KIND(b3, b3) = @b1; T(b1, b2) = 2.0; CHANCE(b1, b2) = 0.25;",
         .init_state =
             "s(b1, b1) = @b1; s(b1, b2) = @b1; s(b1, b3) = @b1; s(b2, b1) = @b1; "
             "s(b2, b2) = @b1; s(b2, b3) = @b1; s(b3, b1) = @b1; s(b3, b2) = @b1; "
@@ -66,6 +67,15 @@ TEST(ChooseEvaluation, ChecksProbabilitiesThatMayBeNone) {
     EXPECT_EQ(chosen("Bernoulli(x(?o, ?q))", "bool"),
               "sample bernoulli@0[o * 3 + q](adjacent state.x[o, q])");
     EXPECT_EQ(chosen("Bernoulli(0.25)", "bool"), "sample bernoulli@0[o * 3 + q](0.25)");
+}
+
+TEST(ChooseEvaluation, SaysWhereSomeDrawsAreCertain) {
+    EXPECT_EQ(chosen("Bernoulli(CHANCE(?o, ?q))", "bool"),
+              "sample valid bernoulli@0[o * 3 + q](chances CHANCE[o, q])");
+    EXPECT_EQ(chosen("Bernoulli(CHANCE(?o, ?q)) ^ x(?o, ?q) > CHANCE(?o, ?q)", "bool"),
+              "sample valid bernoulli@0[o * 3 + q](adjacent CHANCE[o, q]) && "
+              "adjacent state.x[o, q] > adjacent CHANCE[o, q]")
+        << "the values are not bools alone";
 }
 
 TEST(ChooseEvaluation, RoundsWithoutAnInt) {

@@ -44,6 +44,27 @@ TEST(EvaluateTogether, KeepsBoolsAloneInRegisters) {
         EXPECT_EQ(loop_for(cpf), "for x in obj, as words") << cpf;
 }
 
+// `w(?y)` does not lie beside its neighbours for all pairs, but for those of one ?x.
+TEST(EvaluateTogether, TakesLoopsInsideOfOthers) {
+    const auto loops = [](const std::string& cpf_of_on) {
+        Problem problem = with_pairs(cpf_of_on);
+        problem.pvariables += "\nk(obj, obj) : { state-fluent, int, default = 0 };";
+        problem.cpfs += "\nk'(?x, ?y) = k(?x, ?y);";
+        passes::Report report;
+        const std::string text =
+            ir::print(valid(passes::evaluate_together(grounded_with_many(problem), report)));
+        const std::size_t store = text.find("next.on");
+        const std::size_t begin = text.rfind("for x in obj", store);
+        return text.substr(begin, store - begin);
+    };
+    EXPECT_EQ(loops("w(?y) ^ v(?x, ?y) > 1.0"),
+              "for x in obj\n        for y in obj, several at once\n            ");
+    EXPECT_EQ(loops("w(?y) ^ on(?x, ?y)"),
+              "for x in obj\n        for y in obj, as words\n            ");
+    EXPECT_EQ(loops("w(?y) ^ k(?x, ?y) > 1"), "for x in obj\n        for y in obj\n            ");
+    EXPECT_EQ(loops("w(?y) ^ on(?y, ?x)"), "for x in obj\n        for y in obj\n            ");
+}
+
 TEST(EvaluateTogether, TakesLoopsOverRealsThatAreNotCheap) {
     const auto marked = [](const std::string& cpf_of_v) {
         Problem problem = with_pairs("a");

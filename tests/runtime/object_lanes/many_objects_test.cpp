@@ -131,6 +131,77 @@ TEST(ManyObjects, OfPacks) {
     expect_the_same<Pack<64, float>, 21, 21, std::uint8_t>();
 }
 
+// Probabilities of which some are 0 or 1: those of a few objects only are not, or of many.
+template <std::size_t n, std::size_t every, class R>
+constexpr auto chances_of = [] {
+    std::array<R, n> table{};
+    for (std::size_t i = 0; i < n; ++i)
+        table[i] = i % every == every / 2 ? static_cast<R>(i % 5 + 1) / 6 : R(i % 3 == 0);
+    return table;
+}();
+template <class L, std::size_t n, std::size_t every>
+void expect_the_same_draws() {
+    static constexpr const auto& table = chances_of<n, every, typename L::Element>;
+    std::array<typename L::Bool, n> wanted, expected, result;
+    for (std::size_t i = 0; i < n; ++i) wanted[i] = bool_at<L>(i);
+    Context<L> context = context_of_lanes<L>(), same_context = context_of_lanes<L>();
+    for_many_objects<n>(context, [&](auto& several, auto x) {
+        elements(expected, x) = branch(
+            several, at(wanted, x),
+            [&] {
+                return sample::valid_bernoulli(several, {0, x}, at(table, x));
+            },
+            [&] { return false; });
+    });
+    for_many_objects<n>(same_context, [&](auto& several, auto x) {
+        elements(result, x) = branch(
+            several, at(wanted, x),
+            [&] {
+                return sample::valid_bernoulli(several, {0, x}, chances<table>(x));
+            },
+            [&] { return false; });
+    });
+    for (std::size_t i = 0; i < n; ++i)
+        for (int lane = 0; lane < lanes<L>; ++lane)
+            EXPECT_EQ(get_lane(expected[i], lane), get_lane(result[i], lane))
+                << n << " objects, object " << i << ", lane " << lane;
+}
+TEST(ManyObjects, DrawWithChancesSomeOfWhichAreCertain) {
+    expect_the_same_draws<Scalar, 12, 5>();
+    expect_the_same_draws<Scalar, 73, 36>();
+    expect_the_same_draws<Scalar, 130, 13>();
+    expect_the_same_draws<Scalar, 100, 2>();
+    expect_the_same_draws<Scalar, 50, 200>();
+    expect_the_same_draws<Scalar, 300, 17>();
+    expect_the_same_draws<ScalarOf<float>, 72, 20>();
+    expect_the_same_draws<Pack<16>, 73, 20>();
+    expect_the_same_draws<Pack<64>, 40, 3>();
+}
+TEST(ManyObjects, DrawForOneObjectWithChances) {
+    static constexpr std::array<double, 3> chance = {0, 0.5, 1};
+    Context<Scalar> context = context_of_lanes<Scalar>();
+    const auto drawn = [&](Index i) {
+        return sample::valid_bernoulli(context, {0, i}, chances<chance>(OneObject{i}));
+    };
+    EXPECT_FALSE(drawn(0));
+    EXPECT_EQ(drawn(1), sample::valid_bernoulli(context, {0, 1}, 0.5));
+    EXPECT_TRUE(drawn(2));
+}
+TEST(ManyObjects, DrawMediansWithChances) {
+    static constexpr std::array<double, 40> chance = [] {
+        std::array<double, 40> table{};
+        table[7] = 0.75;
+        table[30] = 0.5;
+        return table;
+    }();
+    Context<Scalar> context{median_key, 4, {}};
+    std::array<bool, 40> drawn;
+    for_many_objects<40>(context, [&](auto& several, auto x) {
+        elements(drawn, x) = sample::valid_bernoulli(several, {0, x}, chances<chance>(x));
+    });
+    for (std::size_t i = 0; i < 40; ++i) EXPECT_EQ(drawn[i], i == 7) << i;
+}
+
 constexpr std::size_t affected_count = 100;
 constexpr auto affected_places = [] {
     std::array<std::uint8_t, affected_count> places{};

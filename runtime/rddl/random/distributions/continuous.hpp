@@ -36,7 +36,11 @@ struct StandardNormal {
 // -ln U.
 struct StandardExponential {
     static constexpr std::uint32_t kind = 2;
-    template <class Real>
+    template <RealLanes Real>
+    static RDDL_INLINE Real of(const Real& number) {
+        return -detail::ln_of_positive(open_unit_real(number), Real{0.0});
+    }
+    template <FloatLanes Real>
     static Real of(const Real& number) {
         return -ln(open_unit_real(number));
     }
@@ -49,8 +53,8 @@ namespace rddl::sample {
 // A uniform draw from [lower, upper); lower = upper gives lower. The width must be finite and not
 // negative.
 template <class L>
-typename L::Real uniform(Context<L>& context, Place place, typename L::Real lower,
-                         typename L::Real upper) {
+RDDL_INLINE typename L::Real uniform(Context<L>& context, Place place, typename L::Real lower,
+                                     typename L::Real upper) {
     using Real = typename L::Real;
     const Real width = upper - lower;
     const auto valid =
@@ -89,7 +93,7 @@ RDDL_INLINE typename L::Real normal(Context<L>& context, SomePlace place, const 
 
 // -mean ln U.
 template <class L>
-typename L::Real exponential(Context<L>& context, Place place, typename L::Real mean) {
+RDDL_INLINE typename L::Real exponential(Context<L>& context, Place place, typename L::Real mean) {
     using Real = typename L::Real;
     const auto valid = context.require(mean > 0.0, FaultKind::Mean, place, mean);
     return select(valid, standard_at<StandardExponential>(context, place) * mean, Real{0});
@@ -98,8 +102,8 @@ typename L::Real exponential(Context<L>& context, Place place, typename L::Real 
 namespace detail {
 
 template <class L>
-auto require_shape_and_scale(Context<L>& context, Place place, typename L::Real shape,
-                             typename L::Real scale) {
+RDDL_INLINE auto require_shape_and_scale(Context<L>& context, Place place, typename L::Real shape,
+                                         typename L::Real scale) {
     const auto shape_is_valid = context.require(shape > 0.0, FaultKind::Shape, place, shape);
     const auto scale_is_valid = context.require(scale > 0.0, FaultKind::Scale, place, scale);
     return shape_is_valid && scale_is_valid;
@@ -109,8 +113,8 @@ auto require_shape_and_scale(Context<L>& context, Place place, typename L::Real 
 
 // scale (-ln U)^(1 / shape).
 template <class L>
-typename L::Real weibull(Context<L>& context, Place place, typename L::Real shape,
-                         typename L::Real scale) {
+RDDL_INLINE typename L::Real weibull(Context<L>& context, Place place, typename L::Real shape,
+                                     typename L::Real scale) {
     using Real = typename L::Real;
     const auto valid = detail::require_shape_and_scale(context, place, shape, scale);
     const Real standard = standard_at<StandardExponential>(context, place);
