@@ -230,7 +230,8 @@ struct Simulator {
                 context, scratch.answers[b],
                 [&] {
                     const Real term = 0.05 * scratch.range_to[b] * (0.05 * scratch.range_to[b]);
-                    return rddl::sample::normal(context, {4, b}, scratch.range_to[b], term);
+                    return rddl::sample::normal(context, rddl::PlaceAmong<beacon_count>{4, b},
+                                                scratch.range_to[b], term);
                 },
                 [&] { return 0.0; });
         }

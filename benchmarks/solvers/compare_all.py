@@ -4,11 +4,13 @@
     benchmarks/solvers/compare_all.py --out results.jsonl                   all problems, first instance
     benchmarks/solvers/compare_all.py --out ippc2023.jsonl --context ippc2023 --without 0 --instances 5
     benchmarks/solvers/compare_all.py --out ippc2011.jsonl --context ippc2011 --only _MDP_ --instances 10
-    benchmarks/solvers/compare_all.py --out results.jsonl --table           the table of what is there
+    benchmarks/solvers/compare_all.py --out results.jsonl --table           the table of what is there, and what it shows
 
 It can be interrupted at any time: what is in the file already is not done again. --methods names what is played; a learner
-trains for --seconds, a planner's decision simulates --steps. --prost FOLDER is PROST after its build.py, which plays against
-`rddl serve` with --prost-seconds for each decision. Times are of a processor, so that a busy machine says much the same.
+trains for --seconds, a planner's decision simulates --steps. The learners' runs are kept in a folder beside the file, and
+rollout improves the best policy that the file has by then. --prost FOLDER is PROST after its build.py, which plays against
+`rddl serve` with --prost-seconds for each decision; --jax-python PYTHON has pyRDDLGym-jax, whose JaxPlan trains for --seconds.
+Times are of a processor, so that a busy machine says much the same. --check fails where the results miss the aims.
 """
 
 import argparse
@@ -23,11 +25,15 @@ import time
 from functools import partial
 from pathlib import Path
 
-from sweep import add_options, add_results, chosen_instances, exceeds, interval_text, read_results
+from comparison_tables import COLUMNS, LEARNERS, PLANNERS, document, has_value, shortfalls
+from sweep import ROOT, add_options, add_results, chosen_instances, read_results
 
-LEARNERS = ("ppo", "cgp")
-PLANNERS = {"cem": "plan:cem", "uct": "plan:uct", "rollout": "plan:rollout,policy=random", "gradient": "plan:gradient"}
-METHODS = ("noop", "random", *PLANNERS, *LEARNERS, "optimum", "prost")
+sys.path.append(str(ROOT / "benchmarks"))
+
+from document import write_section  # noqa: E402
+
+METHODS = ("noop", "random", *LEARNERS, *PLANNERS, "optimum", "jaxplan", "prost")
+assert set(METHODS) == set(COLUMNS)
 
 
 class Failure(Exception):
@@ -68,13 +74,42 @@ def evaluated(policy, problem, arguments, training=0.0):
             "decisions": of["steps"], "illegal": of["illegal_actions"], "seconds": seconds, "training_seconds": training}
 
 
+def run_folder(solver, problem, arguments):
+    """Where a learner's policy is kept."""
+    return arguments.out.with_suffix(".runs") / "_".join((*problem, solver))
+
+
 def learned(solver, problem, arguments):
-    with tempfile.TemporaryDirectory() as folder:
-        budget = ["--steps", "1e12"] if solver == "ppo" else ["--gens", "100000000"]
-        _, seconds = run([arguments.rddl, "train", solver, *problem, "--out", f"{folder}/{solver}", "--seed", arguments.seed,
-                          "--time", arguments.seconds, "--memory-limit", "8G", "--threads", 1, "--quiet", *budget],
-                         10 * arguments.seconds + 600)
-        return evaluated(f"{folder}/{solver}", problem, arguments, seconds)
+    folder = run_folder(solver, problem, arguments)
+    budget = ["--steps", "1e12"] if solver == "ppo" else ["--gens", "100000000"]
+    _, seconds = run([arguments.rddl, "train", solver, *problem, "--out", folder, "--seed", arguments.seed, "--time",
+                      arguments.seconds, "--memory-limit", "8G", "--threads", 1, "--quiet", *budget],
+                     10 * arguments.seconds + 600)
+    return evaluated(folder, problem, arguments, seconds)
+
+
+def best_policy(problem, arguments):
+    """The policy with the best return so far that roll-outs can follow."""
+    name, instance = problem
+    results = [result for result in read_results(arguments) if has_value(result) and
+               (result["problem"], result["instance"]) == (name, instance)]
+    policies = {"noop": "noop", "random": "random"} | {solver: run_folder(solver, problem, arguments) for solver in LEARNERS
+                                                       if run_folder(solver, problem, arguments).exists()}
+    best = max((result for result in results if result["method"] in policies), key=lambda result: result["mean"],
+               default={"method": "random"})
+    return best["method"], policies[best["method"]]
+
+
+def planned(planner, problem, arguments):
+    policy = f"plan:{planner},steps={arguments.steps}"
+    result = {"steps": arguments.steps}
+    if arguments.options:
+        policy += f",{arguments.options}"
+        result["options"] = arguments.options
+    if planner == "rollout":
+        result["policy"], base = best_policy(problem, arguments)
+        policy += f",policy={base}"
+    return evaluated(policy, problem, arguments) | result
 
 
 def optimum(problem, arguments):
@@ -115,15 +150,24 @@ def prost(problem, details, arguments):
         return {"mean": float(found[1]), "half_width": float(found[2] or 0), "episodes": arguments.episodes, "seconds": used}
 
 
+def jaxplan(problem, arguments):
+    printed, seconds = run([arguments.jax_python, Path(__file__).with_name("jaxplan.py"), *problem, "--seconds",
+                            arguments.seconds, "--episodes", arguments.episodes, "--seed", arguments.seed],
+                           10 * arguments.seconds + 600)
+    return json.loads(printed.splitlines()[-1]) | {"seconds": seconds}
+
+
 def played(method, problem, details, arguments):
     if method in PLANNERS:
-        return evaluated(f"{PLANNERS[method]},steps={arguments.steps}", problem, arguments) | {"steps": arguments.steps}
+        return planned(method, problem, arguments)
     if method in LEARNERS:
         return learned(method, problem, arguments)
     if method == "optimum":
         return optimum(problem, arguments)
     if method == "prost":
         return prost(problem, details, arguments)
+    if method == "jaxplan":
+        return jaxplan(problem, arguments)
     return evaluated(method, problem, arguments)
 
 
@@ -144,58 +188,34 @@ def jobs_of(problems, done, arguments):
                 yield method, problem["name"], instance, problem
 
 
-def cell(result):
-    if result is None:
-        return ""
-    return "-" if "failure" in result else interval_text(result["mean"], result["half_width"])
-
-
-def has_value(result):
-    return result is not None and "failure" not in result and all(
-        isinstance(result[key], (int, float)) for key in ("mean", "half_width"))
-
-
-def table(results):
-    rows = {}
-    for result in results:
-        rows.setdefault((result["problem"], int(result["instance"])), {})[result["method"]] = result
-    methods = [method for method in METHODS if any(method in row for row in rows.values())]
-    lines = ["| problem | | " + " | ".join(methods) + " | ms a decision |", "|" + "---|" * (len(methods) + 3)]
-    above = dict.fromkeys((method for method in methods if method not in ("noop", "random", "optimum")), 0)
-    best = 0
-    for (problem, instance), row in sorted(rows.items()):
-        times = [f"{1000 * row[name]['seconds'] / row[name]['decisions']:.2g}" if has_value(row.get(name)) else "-"
-                 for name in methods if name in PLANNERS]
-        lines.append(f"| {problem} | {instance} | " + " | ".join(cell(row.get(name)) for name in methods) +
-                     " | " + ", ".join(times) + " |")
-        floors = [(row[name]["mean"], row[name]["half_width"]) for name in ("noop", "random") if has_value(row.get(name))]
-        good = [name for name in above if len(floors) == 2 and has_value(row.get(name))
-                and exceeds(row[name]["mean"], row[name]["half_width"], floors)]
-        best += bool(good)
-        for name in good:
-            above[name] += 1
-    lines.append(f"\nBetter than no-op and random, by more than a thousandth and more than chance, of {len(rows)}: " + ", ".join(
-        f"{name} on {count}" for name, count in above.items()) + f"; at least one of them on {best}.")
-    return "\n".join(lines)
-
-
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
     add_options(parser)
-    parser.add_argument("--methods", nargs="*", default=METHODS[:-1], choices=METHODS)
+    parser.add_argument("--methods", nargs="*", default=METHODS[:-2], choices=METHODS)
     parser.add_argument("--episodes", type=int, default=10)
     parser.add_argument("--steps", type=int, default=20000, help="simulated steps of a planner's decision")
+    parser.add_argument("--options", metavar="KEY=VALUE,...", help="further options of planners")
     parser.add_argument("--seconds", type=float, default=60, help="a learner's time")
     parser.add_argument("--limit", type=float, default=300, help="seconds after which a method is given up")
     parser.add_argument("--prost", type=Path, help="folder of PROST, after its build.py")
     parser.add_argument("--prost-seconds", type=float, default=0.05)
+    parser.add_argument("--jax-python", type=Path, help="Python that has pyRDDLGym-jax")
+    parser.add_argument("--write", metavar="NAME", help="put the table into that section of docs/results/planning.md")
+    parser.add_argument("--check", action="store_true", help="fail where the results miss the aims")
     arguments = parser.parse_args()
     results = read_results(arguments)
-    if arguments.table:
-        print(table(results))
-        return 0
+    if arguments.table or arguments.write or arguments.check:
+        if arguments.table:
+            print(document(results))
+        if arguments.write:
+            write_section(arguments.write, document(results))
+        missing = shortfalls(results) if arguments.check else []
+        print(*missing, sep="\n", end="\n" if missing else "")
+        return 1 if missing else 0
     if "prost" in arguments.methods and not arguments.prost:
         parser.error("--methods prost needs --prost FOLDER")
+    if "jaxplan" in arguments.methods and not arguments.jax_python:
+        parser.error("--methods jaxplan needs --jax-python PYTHON")
     done = {(result["problem"], result["instance"], result["method"]) for result in results}
     problems = json.loads(run([arguments.rddl, "list", "--json"], 600)[0])
     add_results(partial(result_or_failure, arguments), jobs_of(problems, done, arguments), arguments)

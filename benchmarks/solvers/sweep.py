@@ -1,4 +1,4 @@
-"""Shared parts of benchmarks that play many problems: which instances, results that outlive a run, and returns beside floors."""
+"""Which problems are played, and results that outlive a run."""
 
 import json
 from multiprocessing import Pool
@@ -53,9 +53,3 @@ def interval_text(mean, half_width):
         return str(mean)
     return f"{mean:.4g} ± {half_width:.2g}" if half_width else f"{mean:.4g}"
 
-
-def exceeds(mean, half_width, floors):
-    """Whether a return exceeds all of these (mean, half width) by more than chance, half of the width of both intervals
-    together, and by more than a thousandth."""
-    return all(mean - floor > max(1e-3 * abs(floor), ((half_width or 0) ** 2 + (width or 0) ** 2) ** 0.5 / 2)
-               for floor, width in floors)

@@ -14,6 +14,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <optional>
+#include <string>
 #include <vector>
 
 namespace rddlc::autodiff {
@@ -88,6 +90,9 @@ inline constexpr std::size_t most_instructions = 20'000'000;
 // From the output of `ground`. Throws Failure with a sentence for external functions, functions of
 // matrices and random vectors, which have no derivatives here.
 StraightLine unroll(const ir::Program& program);
+
+// That sentence, without unrolling; nothing: unroll() takes the program if it is not too large.
+std::optional<std::string> refusal_of(const ir::Program& program);
 
 // Whether it has instructions whose derivatives a relaxation changes (evaluation.hpp).
 bool can_be_relaxed(const StraightLine& program);

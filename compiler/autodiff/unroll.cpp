@@ -31,6 +31,10 @@ struct List {
 using Key = std::tuple<Code, Operator, Distribution, Slot, Slot, Slot, std::uint32_t, std::uint32_t,
                        Slot, std::uint32_t>;
 
+std::string refusal_of(const ir::Program& program, const ir::Call& call) {
+    return fmt::format("there are no derivatives of {}", name_of(program, call.callee));
+}
+
 class Unroller {
   public:
     explicit Unroller(const ir::Program& program)
@@ -112,8 +116,7 @@ class Unroller {
                 [](const ir::Spread&) {},  // passes make them, which have not run
                 [](const ir::Visit&) {},
                 [&](const ir::Call& call) {
-                    throw Failure(fmt::format("there are no derivatives of {}",
-                                              name_of(program_, call.callee)),
+                    throw Failure(refusal_of(program_, call),
                                   "planners that sample, such as plan:cem, need no derivatives");
                 });
     }
@@ -602,6 +605,20 @@ bool can_be_relaxed(const StraightLine& program) {
 
 StraightLine unroll(const ir::Program& program) {
     return Unroller(program).run();
+}
+
+std::optional<std::string> refusal_of(const ir::Program& program) {
+    std::optional<std::string> refusal;
+    const auto look_at = [&](const ir::Block& block) {
+        ir::for_each_statement<ir::Call>(block, [&](const ir::Call& call) {
+            if (!refusal) refusal = refusal_of(program, call);
+        });
+    };
+    for (const ir::Definition& definition : program.step) look_at(definition.body);
+    look_at(program.reward.body);
+    for (const auto* conditions : {&program.terminations, &program.invariants})
+        for (const ir::Computation& condition : *conditions) look_at(condition.body);
+    return refusal;
 }
 
 }  // namespace rddlc::autodiff

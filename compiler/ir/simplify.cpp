@@ -216,7 +216,35 @@ class Simplifier {
         return std::nullopt;
     }
 
+    // sign[x] == 0 where x == 0, and nan is neither.
+    std::optional<NodeId> sign_against_zero() {
+        const auto number = operand_of(a_, Operator::Sign);
+        if (!number || !is(b_, std::int64_t{0})) return std::nullopt;
+        return builder_.apply(op_, {*number, zero_of(*number)});
+    }
+    NodeId zero_of(NodeId number) {
+        if (node(number).type == Scalar::Int) return builder_.constant(std::int64_t{0});
+        return builder_.constant(0.0);
+    }
+    // Signs are equal where both numbers are positive, negative and zero, or neither is: so is that
+    // of nan.
+    std::optional<NodeId> same_signs() {
+        const auto first = operand_of(a_, Operator::Sign), second = operand_of(b_, Operator::Sign);
+        if (!first || !second || !droppable(a_) || !droppable(b_)) return std::nullopt;
+        const auto agree = [&](Operator order) {
+            return builder_.apply(Operator::Equal,
+                                  {builder_.apply(order, {*first, zero_of(*first)}),
+                                   builder_.apply(order, {*second, zero_of(*second)})});
+        };
+        return builder_.apply(
+            Operator::And,
+            {builder_.apply(Operator::And, {agree(Operator::Greater), agree(Operator::Less)}),
+             agree(Operator::Equal)});
+    }
+
     std::optional<NodeId> equality() {
+        if (const auto order = sign_against_zero()) return order;
+        if (const auto same = same_signs()) return same;
         if (is(a_, true)) return b_;
         if (is(b_, true)) return a_;
         if (is(a_, false)) return builder_.apply(Operator::Not, {b_});
@@ -226,6 +254,8 @@ class Simplifier {
     }
 
     std::optional<NodeId> inequality() {
+        if (const auto order = sign_against_zero()) return order;
+        if (const auto same = same_signs()) return builder_.apply(Operator::Not, {*same});
         if (is(a_, false)) return b_;
         if (is(b_, false)) return a_;
         if (is(a_, true)) return builder_.apply(Operator::Not, {b_});

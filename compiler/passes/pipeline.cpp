@@ -16,6 +16,7 @@
 #include "passes/aggregations/tabulate_thresholds.hpp"
 #include "passes/aggregations/visit_true.hpp"
 #include "passes/arithmetic/compare_magnitudes.hpp"
+#include "passes/arithmetic/compare_roots.hpp"
 #include "passes/arithmetic/fast_math.hpp"
 #include "passes/arithmetic/find_ranges.hpp"
 #include "passes/arithmetic/prove_invariants.hpp"
@@ -33,6 +34,7 @@
 #include "passes/lanes/separate_aggregations.hpp"
 #include "passes/lanes/separate_counts.hpp"
 #include "passes/lanes/separate_draws.hpp"
+#include "passes/lanes/test_equalities_first.hpp"
 #include "passes/lanes/unroll_rows.hpp"
 #include "passes/lanes/visit_affected.hpp"
 #include "passes/lanes/visit_chosen.hpp"
@@ -226,6 +228,12 @@ constexpr Pass in_order[] = {
      "two opposite bounds of a real become one of its absolute value",
      {"search_intervals"},
      "it looks for plain comparisons"},
+    {"compare_roots",
+     Phase::Arithmetic,
+     compare_roots,
+     "a root that is only compared with a constant is not taken",
+     {"fuse_interm_fluents", "search_intervals"},
+     "roots and their comparisons stand together, and it looks for plain comparisons"},
     {"share_across_definitions",
      Phase::Sharing,
      share_across_definitions,
@@ -262,12 +270,18 @@ constexpr Pass in_order[] = {
      "small tables of sums over rows are filled without loops",
      {"separate_aggregations"},
      "it has made such tables"},
+    {"test_equalities_first",
+     Phase::Lanes,
+     test_equalities_first,
+     "what has to hold beside an equality of reals is evaluated where the equality holds",
+     {"compare_magnitudes", "separate_aggregations"},
+     "conditions have their final form"},
     {"group_angles",
      Phase::Lanes,
      group_angles,
      "sines and cosines of a step are computed together",
-     {"share_across_definitions", "unroll_rows"},
-     "sines that stand in a loop, or are shared, have their final place"},
+     {"share_across_definitions", "test_equalities_first"},
+     "the values that every step needs, and those that are shared, are known"},
     {"remove_unused_buffers",
      Phase::Sharing,
      remove_unused_buffers,

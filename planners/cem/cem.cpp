@@ -1,7 +1,6 @@
 #include "planners/cem/cem.hpp"
 
 #include "planners/simulation/mean_and_error.hpp"
-#include "support/failure.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -72,15 +71,16 @@ Cem::Cem(const PlannerContext& context, const CemOptions& options)
         recorder_.emplace(simulator_, *context.base, 1);
         recording_.emplace(simulator_, 1, context.horizon);
     }
-    if (options.tail == Tail::Value) {
-        if (!context.base)
-            throw Failure("tail=value needs a policy: policy=POLICY", {}, usage_error);
-        tail_.emplace(*context.base, futures_.count(), "plan:cem,tail=value");
-    }
+    if (options.tail == Tail::Value) tail_.emplace(*context.base, futures_.count());
     default_numbers_.resize(static_cast<std::size_t>(space_.real_count()));
     default_indices_.resize(static_cast<std::size_t>(space_.index_count()));
     solvers::read_action(space_, space_.defaults.data(), default_numbers_.data(),
                          default_indices_.data());
+
+    near_numbers_ = default_numbers_;
+    near_indices_ = default_indices_;
+    if (const double part = NearSearch::part_of(options_, space_); part > 0)
+        near_.emplace(context, options_, part);
 
     origins_.resize(population_);
     values_.resize(population_);
@@ -153,6 +153,10 @@ void Cem::make_population(Memory& memory, const DecisionPoint& point, RandomStre
     if (take(Origin::Middle)) {
         end_by_noop(plan_, 0, memory.horizon);
         memory.distribution.middle(plan_);
+        plans_.put(next++, plan_);
+    }
+    if (near_ && take(Origin::Near)) {
+        begin_near(memory, plan_);
         plans_.put(next++, plan_);
     }
 }
@@ -313,6 +317,7 @@ void Cem::decide(const DecisionPoint& point, std::byte* action, Explanation* exp
         const bool has_tail = base_ && !tail_ && point.left != no_end;
         return compares ? lanes * (has_tail ? point.left : depth) : 0;
     };
+    if (near_) look_near(point, meter);
     std::int64_t depth = 0;
     double seconds = 0;
     bool has_found = false;  // a plan that no population has played

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "planners/cem/cem_options.hpp"
+#include "planners/cem/near_search.hpp"
 #include "planners/cem/novelty_search.hpp"
 #include "planners/cem/plan_actions.hpp"
 #include "planners/cem/plan_distribution.hpp"
@@ -37,7 +38,7 @@ class Cem : public Planner {
     void decide(const DecisionPoint& point, std::byte* action, Explanation* explanation) override;
 
   private:
-    enum class Origin { Kept, Policy, Noop, Middle, Sample };
+    enum class Origin { Kept, Policy, Noop, Middle, Near, Sample };
     // The memory of an episode, from one decision to the next.
     struct Memory {
         Memory(const solvers::ActionSpace& space, Spread spread) : distribution(space, spread) {}
@@ -59,6 +60,8 @@ class Cem : public Planner {
     void end_by_noop(Plan& plan, std::int64_t first, std::int64_t steps) const;
     void make_population(Memory& memory, const DecisionPoint& point, RandomStream& stream,
                          BudgetMeter& meter);
+    void look_near(const DecisionPoint& point, BudgetMeter& meter);
+    void begin_near(const Memory& memory, Plan& plan) const;
     void record_policy(const DecisionPoint& point, BudgetMeter& meter);
     // Plays these plans (none: all) in turn, lane after lane, as often as there are lanes for. The
     // steps that were made, fewer where time is up.
@@ -100,12 +103,13 @@ class Cem : public Planner {
     LegalActions legal_;
     std::optional<BasePolicy> base_, recorder_;  // of all lanes; of one environment
     std::optional<Futures> recording_;
+    std::optional<NearSearch> near_;               // where many choices make an action
     std::optional<ValueTail> tail_;                // what follows plans, where it is by values
     std::optional<NoveltySearch> novelty_search_;  // where it was needed before
     EpisodeMemories<Memory> memories_;
-    Distribution fresh_;  // of a new episode
-    std::vector<float> default_numbers_;
-    std::vector<std::int32_t> default_indices_;
+    Distribution fresh_;                                 // of a new episode
+    std::vector<float> default_numbers_, near_numbers_;  // of one action
+    std::vector<std::int32_t> default_indices_, near_indices_;
 
     // The population, and one plan by itself.
     Population plans_;

@@ -58,6 +58,11 @@ solvers::OptionTable<O> make_cem_table() {
              "best plans are compared; value: the values that PPO has learned"},
             [](auto& o) -> auto& { return o.tail; },
             {{"policy", Tail::Policy}, {"value", Tail::Value}}),
+        number_option<O, double>(
+            {"near", "near", "PART",
+             "Part of the budget for plans of two steps (0.25 with more than 4096 joint actions "
+             "and no reals among them, else 0)"},
+            [](auto& o) -> auto& { return o.near; }, 0.0, 0.9),
     };
     table.insert(table.end(), std::make_move_iterator(own.begin()),
                  std::make_move_iterator(own.end()));

@@ -23,8 +23,10 @@ struct CemOptions : CommonOptions {
     double memory = 0.2;           // of a distribution for the one before it
     int kept = 8;                  // of the best plans, that come again
     Weights weights = Weights::Elites;
-    double temperature = 0.2;  // of mppi, in deviations of the returns
-    Tail tail = Tail::Policy;  // with a policy
+    double temperature = 0.2;    // of mppi, in deviations of the returns
+    Tail tail = Tail::Policy;    // with a policy
+    std::optional<double> near;  // part of the budget for plans of two steps
+    const char* option_for_values() const { return tail == Tail::Value ? "tail=value" : nullptr; }
 };
 
 // The correlations of noise, for one plan after the other.

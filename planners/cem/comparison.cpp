@@ -78,7 +78,7 @@ Cem::Choice Cem::compare(const DecisionPoint& point, std::int64_t steps, RandomS
 }
 
 void Cem::note_candidates(Explanation& explanation, const Choice& chosen) const {
-    constexpr const char* names[] = {"kept", "policy", "noop", "middle", "sample"};
+    constexpr const char* names[] = {"kept", "policy", "noop", "middle", "near", "sample"};
     constexpr std::size_t most = 5;
     const auto add = [&](std::size_t plan, std::int64_t trials) {
         const std::byte* const action = first_action(plan);

@@ -17,6 +17,9 @@ struct CommonOptions {
     bool cheat = false;                   // sees the state of problems that hide it
     int particles = 1024;                 // possible states, where it does not
     std::uint64_t seed = 0;
+    // The option that needs a policy with values, "tail=value"; NULL: no option does. Planners that
+    // have such an option hide this function.
+    const char* option_for_values() const { return nullptr; }
 };
 
 template <class Options>

@@ -35,6 +35,7 @@ using Words = std::vector<std::pair<std::string, std::string>>;  // key and valu
 struct Chosen {
     std::string name;
     CommonOptions common;
+    const char* option_for_values;  // NULL: it needs no policy with values
     bool takes_particles;
     std::function<std::unique_ptr<Planner>(const PlannerContext&)> make;
 };
@@ -88,7 +89,8 @@ Entry entry(const std::string& name, const std::string& summary, bool needs_poli
     made.read = [name, takes_particles, table](const Words& words) {
         Options options;
         for (const auto& [key, value] : words) set_option(name, table(), key, value, options);
-        return Chosen{name, options, takes_particles, [options](const PlannerContext& context) {
+        return Chosen{name, options, options.option_for_values(), takes_particles,
+                      [options](const PlannerContext& context) {
                           return make_planner<ItsPlanner>(context, options);
                       }};
     };
@@ -155,7 +157,20 @@ Chosen read_planner(const std::string& name, const Words& words) {
             fmt::format("plan:{0} improves a policy: say which one, as in "
                         "plan:{0},policy=random",
                         name));
+    if (chosen.option_for_values && chosen.common.policy.empty())
+        throw usage(fmt::format(
+            "plan:{}: {} needs a policy that estimates values, as in policy=runs/a after 'rddl "
+            "train ppo --out runs/a'",
+            name, chosen.option_for_values));
     return chosen;
+}
+
+void require_values(const Chosen& chosen, const solvers::Policy& policy) {
+    if (!chosen.option_for_values || policy.values) return;
+    throw Failure(fmt::format("plan:{},{} needs a policy that estimates values, and '{}' does not",
+                              chosen.name, chosen.option_for_values, policy.name),
+                  "policies of 'rddl train ppo' without --recurrent do, where the problem is "
+                  "observed in full");
 }
 
 bool sees_state(const rddl_problem& problem, const Chosen& chosen, const PolicySettings& settings) {
@@ -277,7 +292,10 @@ solvers::Policy planner_policy(const rddl_simulator& simulator, const std::strin
     const Chosen chosen = read_planner(name, words);
     require_sight(*simulator.problem, chosen, settings);
     std::optional<solvers::Policy> base;
-    if (!chosen.common.policy.empty()) base = settings.named(chosen.common.policy);
+    if (!chosen.common.policy.empty()) {
+        base = settings.named(chosen.common.policy);
+        require_values(chosen, *base);
+    }
     const auto start = [&simulator, chosen, base,
                         settings](std::int64_t environments) -> solvers::Actor {
         const auto actor =

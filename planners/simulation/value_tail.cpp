@@ -1,26 +1,15 @@
 #include "planners/simulation/value_tail.hpp"
 
-#include "support/failure.hpp"
-
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cstddef>
 
 namespace rddlc::planners {
 
-ValueTail::ValueTail(const solvers::Policy& policy, std::int64_t lanes, const char* option)
+ValueTail::ValueTail(const solvers::Policy& policy, std::int64_t lanes)
     : policy_(policy),
+      values_of_(policy_.values(lanes)),
       values_(static_cast<std::size_t>(lanes)),
-      steps_(static_cast<std::size_t>(lanes)) {
-    if (!policy_.values)
-        throw Failure(
-            fmt::format("{} needs a policy that estimates values, and '{}' does not", option,
-                        policy_.name),
-            "policies of 'rddl train ppo' without --recurrent do, where the problem is observed "
-            "in full");
-    values_of_ = policy_.values(lanes);
-}
+      steps_(static_cast<std::size_t>(lanes)) {}
 
 void ValueTail::add(Futures& futures, std::int64_t steps) {
     if (!futures.any_running()) return;

@@ -11,9 +11,8 @@ namespace rddlc::planners {
 
 class ValueTail {
   public:
-    // For futures of so many lanes. Throws a Failure where the policy has no values: `option` is
-    // what asks for them ("tail=value").
-    ValueTail(const solvers::Policy& policy, std::int64_t lanes, const char* option);
+    // For futures of so many lanes. The policy must have values.
+    ValueTail(const solvers::Policy& policy, std::int64_t lanes);
 
     // Adds the discounted value of its state to each lane that still runs, after so many steps of
     // the episode.

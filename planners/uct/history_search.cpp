@@ -69,7 +69,7 @@ void HistorySearch::decide(const DecisionPoint& point, std::byte* action,
         while (meter.has_room(lanes * depth_, 0) && tree().bytes() <= most_bytes_ &&
                run_trials(point, stream, meter)) {
         }
-        const Id chosen = best_edge(root_);
+        const Id best = best_edge(root_), chosen = is_policy_better(best) ? 0 : best;
         const std::byte* const without =
             point.base_action ? point.base_action : records_.default_record().data();
         std::copy_n(chosen ? tree().action(chosen) : without, action_size_, actions_.data());
@@ -112,31 +112,44 @@ void HistorySearch::open_root(const DecisionPoint& point) {
 void HistorySearch::choose_policy(const DecisionPoint& point, RandomStream& stream,
                                   BudgetMeter& meter) {
     policy_ = 0;
+    policy_return_.reset();
+    // Not more than a part of the budget goes there.
+    constexpr std::int64_t parts = 7;
     const auto lanes = static_cast<std::int64_t>(trials_.size());
-    // A tenth of the budget may go there.
-    if (policies_.size() == 1 ||
-        !meter.has_room(10 * lanes * depth_ * static_cast<std::int64_t>(policies_.size()), 0))
-        return;
-    double best = 0;
-    const std::size_t count = policies_.size();
-    for (std::size_t p = 0, chosen = 0; p < count; ++p) {
-        policy_ = p;
-        begin_trials(point, stream);
-        for (Trial& trial : trials_) trial.node = 0;
-        double sum = 0;
-        for (std::int64_t t = 0; t < depth_ && futures_.any_running(); ++t) {
-            choose_actions(point, stream);
-            if (meter.is_late()) break;
-            futures_.step(actions_.data());
-            meter.add_steps(futures_.stepped());
-        }
-        for (std::size_t k = 0; k < trials_.size(); ++k) sum += futures_.value(k);
-        if (p == 0 || sum > best) {
-            best = sum;
-            chosen = p;
-        }
-        if (p + 1 == count) policy_ = chosen;
+    const auto count = static_cast<std::int64_t>(policies_.size());
+    if (!meter.has_room(parts * lanes * depth_ * count, 0)) return;
+    std::size_t chosen = 0;
+    for (policy_ = 0; policy_ < policies_.size(); ++policy_) {
+        const auto found = return_of_policy(point, stream, meter);
+        if (!found) break;
+        if (policy_return_ && found->mean <= policy_return_->mean) continue;
+        policy_return_ = found;
+        chosen = policy_;
     }
+    policy_ = chosen;
+}
+
+// Nothing where time is up.
+std::optional<MeanAndError> HistorySearch::return_of_policy(const DecisionPoint& point,
+                                                            RandomStream& stream,
+                                                            BudgetMeter& meter) {
+    begin_trials(point, stream);
+    for (Trial& trial : trials_) trial.node = 0;
+    for (std::int64_t t = 0; t < depth_ && futures_.any_running(); ++t) {
+        choose_actions(point, stream);
+        if (meter.is_late()) return std::nullopt;
+        futures_.step(actions_.data());
+        meter.add_steps(futures_.stepped());
+    }
+    return mean_and_error(trials_.size(), [&](std::size_t k) { return futures_.value(k); });
+}
+
+// The means of actions are of all that was tried after them. Where each costs something, they are
+// worse than what no-op or the given policy returns.
+bool HistorySearch::is_policy_better(Id best) const {
+    const bool is_random = policy_ == 1;
+    return best != 0 && policy_return_ && !is_random &&
+           policy_return_->mean - policy_return_->error > tree().edge(best).value;
 }
 
 void HistorySearch::begin_trials(const DecisionPoint& point, RandomStream& stream) {
@@ -302,7 +315,7 @@ bool HistorySearch::has_edge(Id node, const std::byte* action) const {
 // UCB1, where trials under way count as tried.
 HistorySearch::Id HistorySearch::choose_edge(Id id) {
     const HistoryTree::Node& node = tree().node(id);
-    const double range = most_ > least_ ? most_ - least_ : 0;
+    const double range = range_of_returns(least_, most_);
     const double scale = std::max(options_.exploration * range, 1e-9) *
                          std::sqrt(std::log(static_cast<double>(node.started) + 1));
     Id chosen = node.first_edge;
@@ -337,11 +350,18 @@ void HistorySearch::note_explanation(Explanation& explanation, Id chosen,
     explanation.iterations = meter.iterations();
     explanation.steps = meter.steps();
     if (chosen == 0) {
-        explanation.note = "the budget did not last for a trial";
         explanation.candidates.push_back(
-            {"noop",
+            {policies_.size() == 1 ? "policy" : "noop",
              {actions_.begin(), actions_.begin() + static_cast<std::ptrdiff_t>(action_size_)}});
-        return;
+        if (policy_return_) {
+            explanation.candidates.back().value = policy_return_->mean;
+            explanation.candidates.back().error = policy_return_->error;
+            explanation.candidates.back().trials = static_cast<std::int64_t>(trials_.size());
+        }
+        if (best_edge(root_) == 0) {
+            explanation.note = "the budget did not last for a trial";
+            return;
+        }
     }
     for (Id e = tree().node(root_).first_edge; e != 0; e = tree().edge(e).next) {
         if (e == chosen) explanation.chosen = explanation.candidates.size();

@@ -12,6 +12,7 @@
 #include "planners/simulation/finite_actions.hpp"
 #include "planners/simulation/futures.hpp"
 #include "planners/simulation/legal_actions.hpp"
+#include "planners/simulation/mean_and_error.hpp"
 #include "planners/simulation/random_stream.hpp"
 #include "planners/uct/history_tree.hpp"
 #include "planners/uct/uct_options.hpp"
@@ -48,6 +49,9 @@ class HistorySearch : public Planner {
 
     void open_root(const DecisionPoint& point);
     void choose_policy(const DecisionPoint& point, RandomStream& stream, BudgetMeter& meter);
+    std::optional<MeanAndError> return_of_policy(const DecisionPoint& point, RandomStream& stream,
+                                                 BudgetMeter& meter);
+    bool is_policy_better(Id best) const;
     // False where time was up, and nothing has changed but counts.
     bool run_trials(const DecisionPoint& point, RandomStream& stream, BudgetMeter& meter);
     void begin_trials(const DecisionPoint& point, RandomStream& stream);
@@ -80,8 +84,9 @@ class HistorySearch : public Planner {
     ActionSampler sampler_;
     Futures futures_;
     LegalActions legal_;
-    std::vector<BasePolicy> policies_;  // that may play on
-    std::size_t policy_ = 0;            // that does
+    std::vector<BasePolicy> policies_;           // that may play on: one given, or no-op and random
+    std::size_t policy_ = 0;                     // that does
+    std::optional<MeanAndError> policy_return_;  // from the root, if it was played
     std::size_t most_bytes_;
     EpisodeMemories<Memory> memories_;
     Memory* memory_ = nullptr;  // of the decision

@@ -21,6 +21,14 @@ inline std::int64_t end_of_search(std::int64_t step, std::int64_t left, std::int
     return known_end >= step + (depth + 1) / 2 ? std::min(known_end, step + depth) : step + depth;
 }
 
+// How far apart returns may be, by the least and the greatest that were seen. Where all that was
+// tried costs about the same, as courses before the first one is passed, better ones may remain.
+inline double range_of_returns(double least, double most) {
+    constexpr double least_part = 0.02;
+    if (!(most >= least)) return 0;
+    return std::max(most - least, least_part * std::max(std::abs(least), std::abs(most)));
+}
+
 // Whether an action that was taken so often has as many outcomes as may be told apart.
 inline bool has_all_outcomes(const UctOptions& options, double taken, double outcomes) {
     return options.outcomes > 0 && outcomes >= std::ceil(options.outcomes * std::sqrt(taken));

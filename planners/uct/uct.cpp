@@ -3,9 +3,6 @@
 
 #include "planners/simulation/random_stream.hpp"
 #include "planners/uct/search_rules.hpp"
-#include "support/failure.hpp"
-
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -66,15 +63,6 @@ Initial initial_of(const PlannerContext& context, const UctOptions& options, std
     return may_determinise(options, actions) ? Initial::Determinised : Initial::Rollout;
 }
 
-solvers::StateValues values_of(const solvers::Policy& policy, std::int64_t lanes) {
-    if (policy.values) return policy.values(lanes);
-    throw Failure(fmt::format("plan:uct,initial=value needs a policy that estimates values, and "
-                              "'{}' does not",
-                              policy.name),
-                  "policies of 'rddl train ppo' without --recurrent do, where the problem is "
-                  "observed in full");
-}
-
 std::int64_t leaf_lanes(const UctOptions& options, Initial initial, std::size_t actions) {
     const auto each = static_cast<std::int64_t>(initial == Initial::Lookahead ? actions : 4);
     return std::clamp<std::int64_t>(affordable_lanes(options, options.lanes) * each, 1,
@@ -97,6 +85,8 @@ Uct::Uct(const PlannerContext& context, const UctOptions& options)
       trees_(simulator_, affordable_lanes(options, options.lanes), context.horizon),
       continuations_(simulator_, leaf_lanes(options, initial_, actions_.count()), context.horizon,
                      true),
+      discount_(initial_ == Initial::Value ? context.base->value_discount
+                                           : simulator_.problem->discount),
       most_bytes_(static_cast<std::size_t>(context.memory_limit) / decision_share),
       most_kept_bytes_(static_cast<std::size_t>(context.memory_limit) / kept_share),
       memories_(context.environments),
@@ -110,10 +100,8 @@ Uct::Uct(const PlannerContext& context, const UctOptions& options)
     if (context.base) {
         policies_.emplace_back(simulator_, *context.base, lanes);
         if (context.base->priors) priors_ = context.base->priors(lanes, actions_.records());
-        if (initial_ == Initial::Value) state_values_ = values_of(*context.base, lanes);
+        if (initial_ == Initial::Value) state_values_ = context.base->values(lanes);
         if (priors_ || state_values_) judged_.emplace(simulator_, lanes, context.horizon);
-    } else if (initial_ == Initial::Value) {
-        throw Failure("plan:uct: initial=value needs a policy: policy=POLICY", {}, usage_error);
     } else {
         policies_.emplace_back(simulator_, solvers::noop_policy(simulator_), lanes);
         policies_.emplace_back(simulator_, solvers::random_policy(simulator_, options.seed), lanes);
@@ -152,7 +140,7 @@ void Uct::add_edges(NodeId node, const Origin& origin) {
 void Uct::choose_memory(const DecisionPoint& point) {
     auto& memory = memories_.of(point);
     if (!memory) {
-        memory = Memory{Tree(state_size_, simulator_.problem->discount, options_.backup),
+        memory = Memory{Tree(state_size_, discount_, options_.backup),
                         DeterminisedProblem(state_size_, simulator_.problem->discount)};
         memory->tree.clear();
     }
@@ -228,7 +216,7 @@ void Uct::note_range() {
 
 double Uct::bonus(const Node& node) const {
     const double left = static_cast<double>(end_ - node.step) / static_cast<double>(end_ - step_);
-    return std::max(options_.exploration * std::max(0.0, most_ - least_) * left, 1e-9);
+    return std::max(options_.exploration * range_of_returns(least_, most_) * left, 1e-9);
 }
 
 // Actions without a value come first. Then the best by value and by how little it was tried (UCB1).

@@ -139,6 +139,8 @@ class Uct : public Planner {
     std::size_t policy_ = 0;             // that does
     solvers::ActionPriors priors_;       // of the user's policy; may be empty
     solvers::StateValues state_values_;  // of Initial::Value
+    // Of rewards: the problem's, or that of the values, so that sums of both are comparable.
+    double discount_;
     bool goes_on_ = false;           // the network values what comes after the end of the search
     std::optional<Futures> judged_;  // new nodes, for these two
     std::optional<TypicalSteps> typical_steps_;  // of Initial::Determinised

@@ -10,9 +10,10 @@ using solvers::number_option;
 solvers::OptionTable<UctOptions> make_uct_table() {
     solvers::OptionTable<UctOptions> table = common_options<UctOptions>(
         "Trials of a decision, rounded up to a multiple of lanes",
-        "Steps that are looked ahead (40, or to the end of the episode)",
-        "That plays on from the leaves of the tree (no-op or random, whichever has the greater "
-        "return)");
+        "Steps that are looked ahead, to the end of the episode at most (40; 200 with "
+        "initial=value)",
+        "A policy whose actions are tried first, and that values new states (without it: no-op or "
+        "random, whichever has the greater return from the state of the decision)");
     solvers::OptionTable<UctOptions> own = {
         particles_option<UctOptions>(),
         number_option<UctOptions, int>(

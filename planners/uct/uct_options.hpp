@@ -21,6 +21,9 @@ struct UctOptions : CommonOptions {
     int lookahead = 256;  // states that a search in the determinised problem may meet
     // Nothing: Value with a policy that has values, Lookahead with another one, else Determinised.
     std::optional<Initial> initial;
+    const char* option_for_values() const {
+        return initial == Initial::Value ? "initial=value" : nullptr;
+    }
 };
 
 const solvers::OptionTable<UctOptions>& uct_option_table();

@@ -10,8 +10,10 @@
 #include "solvers/cgp/option_table.hpp"
 #include "solvers/cgp/policy_file.hpp"
 #include "solvers/cgp/trainee.hpp"
+#include "solvers/drp/trainee.hpp"
 #include "solvers/evaluation/summary.hpp"
 #include "solvers/ppo/option_table.hpp"
+#include "solvers/ppo/policy_file.hpp"
 #include "solvers/ppo/trainee.hpp"
 #include "support/files.hpp"
 
@@ -224,6 +226,9 @@ solvers::OptionTable<solvers::PpoOptions> ppo_keywords() {
 solvers::OptionTable<solvers::CgpOptions> cgp_keywords() {
     return with_common(solvers::cgp_option_table());
 }
+solvers::OptionTable<solvers::DrpOptions> drp_keywords() {
+    return with_common(solvers::drp_option_table());
+}
 
 Learner ppo(const LoadedProblem& problem, const nb::dict& given) {
     solvers::PpoOptions ppo;
@@ -253,6 +258,18 @@ Learner cgp(const LoadedProblem& problem, const nb::dict& given) {
     cgp.stops = asks(stop);
     const nb::gil_scoped_release released;
     return {problem.simulator, solvers::cgp_trainee(*problem.simulator, cgp), stop};
+}
+
+Learner drp(const LoadedProblem& problem, const nb::dict& given) {
+    solvers::DrpOptions drp;
+    std::vector<solvers::OptionText> known;
+    set_options(drp_keywords(), given, drp, known);
+    refuse_unknown(given, known);
+    const auto stop = std::make_shared<std::atomic<bool>>(false);
+    drp.stops = asks(stop);
+    const nb::gil_scoped_release released;
+    return {problem.simulator,
+            solvers::drp_trainee(*problem.simulator, drp, problem.derivatives), stop};
 }
 
 Policy policy_of_text(const LoadedProblem& problem, const std::string& text, bool random,
@@ -292,7 +309,7 @@ nb::bytes policy_of_file(const nb::object& path) {
 }
 
 std::string solver_of_text(const std::string& text) {
-    return solvers::is_program(text) ? "cgp" : "ppo";
+    return solvers::is_program(text) ? "cgp" : solvers::solver_of_network(text);
 }
 
 void write_policy(const nb::object& path, const std::string& text) {
@@ -358,17 +375,19 @@ void add_learners(nb::module_& module) {
         .def("load", &Learner::load);
     module.def("ppo", ppo, nb::arg("simulator"), nb::arg("options"));
     module.def("cgp", cgp, nb::arg("simulator"), nb::arg("options"));
+    module.def("drp", drp, nb::arg("simulator"), nb::arg("options"));
     module.def("ppo_options", [] {
         return options_help(workbench::imitation_option_table()) + options_help(ppo_keywords());
     });
     module.def("cgp_options", [] { return options_help(cgp_keywords()); });
+    module.def("drp_options", [] { return options_help(drp_keywords()); });
     module.def("policy_named", policy_named, nb::arg("simulator"), nb::arg("name"));
     module.def("planner_options", planner_options, nb::arg("name"));
     module.def("formula_of_text", formula_of_text, nb::arg("simulator"), nb::arg("text"));
     module.def("policy_of_file", policy_of_file, nb::arg("path"),
                "What a policy file holds, or that of the folder of a run.");
     module.def("solver_of_text", solver_of_text, nb::arg("text"),
-               "\"ppo\" or \"cgp\": what has learned the policy of a file's text.");
+               "\"ppo\", \"cgp\" or \"drp\": what has learned the policy of a file's text.");
     module.def("write_file", write_policy, nb::arg("path"), nb::arg("text"));
     module.def("policy_of_text", policy_of_text, nb::arg("simulator"), nb::arg("text"),
                nb::arg("random"), nb::arg("seed"));

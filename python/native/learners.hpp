@@ -1,4 +1,4 @@
-// The learners PPO and CGP, and the policies that they find.
+// The learners PPO, CGP and DRP, and the policies that they find.
 #pragma once
 
 #include <nanobind/nanobind.h>

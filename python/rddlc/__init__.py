@@ -14,7 +14,7 @@ from .arguments import keywords_of, refuse_unknown
 from .environment import RDDLEnv
 from .errors import ActionError, ArgumentError, CompileError, EpisodeOver, Error
 from .evaluation import Estimate, Evaluation
-from .learners import CGP, PPO, Learner
+from .learners import CGP, DRP, PPO, Learner
 from .model import Condition, Fluent, Model, ObjectType
 from .problems import Problem, problems
 from .registration import register, register_environments, spec_of
@@ -29,6 +29,7 @@ __all__ = [
     "CGP",
     "CompileError",
     "Condition",
+    "DRP",
     "EpisodeOver",
     "Error",
     "Estimate",

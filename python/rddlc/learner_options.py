@@ -48,6 +48,21 @@ class PPOOptions(LearnerOptions, total=False):
     bootstrap: bool | str
 
 
+class DRPOptions(TypedDict, total=False):
+    seed: int
+    memory_limit: int
+    steps: int
+    episodes: int
+    horizon: int
+    learning_rate: float
+    clip: float
+    relax: str
+    sharpness: float
+    hidden: int | str | Sequence[int]
+    activation: str
+    time_input: bool | str
+
+
 class CGPOptions(LearnerOptions, total=False):
     generations: int
     children: int

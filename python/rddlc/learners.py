@@ -1,6 +1,7 @@
-"""The learners of rddlc: proximal policy optimisation, and Cartesian genetic programming.
+"""The learners of rddlc: proximal policy optimisation, Cartesian genetic programming, and deep reactive
+policies by exact gradients.
 
-Both are native: they know simulators, not Gymnasium's spaces, and learn without Python's lock. What
+All are native: they know simulators, not Gymnasium's spaces, and learn without Python's lock. What
 they save is what `rddl evaluate` and `rddl export` read (docs/solvers.md).
 """
 
@@ -26,7 +27,7 @@ from .problems import Problem
 if TYPE_CHECKING:
     from typing_extensions import Unpack
 
-    from .learner_options import CGPOptions, PPOOptions
+    from .learner_options import CGPOptions, DRPOptions, PPOOptions
 
 
 class Wrapped(Protocol):
@@ -50,7 +51,7 @@ class _Best:
 
 
 class Learner:
-    """The common part of PPO and CGP."""
+    """The common part of PPO, CGP and DRP."""
 
     solver: ClassVar[str]
     extension: ClassVar[str]
@@ -94,12 +95,12 @@ class Learner:
         evaluation_episodes: int = 20,
         progress_bar: bool = False,
     ) -> L:
-        """Learns for so many steps (PPO) or generations (CGP); another call continues.
+        """Learns for so many steps (PPO, DRP) or generations (CGP); another call continues.
         Ctrl-C ends it, also within an update, and keeps what has been learned.
 
         callback: called with the learner after each update; learning ends when it returns False.
             rddlc.callbacks has some. A list of callbacks is called in its order.
-        total_timesteps: of PPO another name of `amount`.
+        total_timesteps: of PPO and DRP another name of `amount`.
         evaluations: so often, evenly, the policy is evaluated in `evaluation_episodes` episodes of
             the same seeds, and `best` keeps the best one; 0: never. With verbose=1 each of them is
             printed.
@@ -368,3 +369,26 @@ class CGP(Learner):
     def _repr_html_(self) -> str:
         """Notebooks show its formula."""
         return f"<pre>{html.escape(self.formula)}</pre>"
+
+
+class DRP(Learner):
+    """A deep reactive policy: a neural network that goes up the exact gradient of its return, through
+    all steps of its episodes (docs/planning.md).
+
+    Options are keywords, with the values that `rddl help train drp` lists; lists are Python's, and
+    True and False are on and off:
+
+    """
+
+    __doc__ = (__doc__ or "") + _native.drp_options()
+
+    solver, extension, total = "drp", ".json", "steps"
+
+    def __init__(
+        self, env_or_problem: Solvable, *, verbose: int = 0, **options: Unpack[DRPOptions]
+    ) -> None:
+        super().__init__(env_or_problem, verbose=verbose, **options)
+        self._new_native({"steps": 1, **options})  # refuses options that cannot be
+
+    def _new_native(self, options: dict[str, Any]) -> _native.Learner:
+        return _native.drp(self.problem.simulator, options)

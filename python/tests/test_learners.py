@@ -1,6 +1,6 @@
-"""rddlc.PPO and rddlc.CGP.
+"""rddlc.PPO, rddlc.CGP and rddlc.DRP.
 
-Over 400 lines: both learners promise the same, which one set of tests asks of each.
+Over 400 lines: all learners promise the same, which one set of tests asks of each.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ from gymnasium.wrappers import TimeLimit
 from support import example
 
 import rddlc
-from rddlc.learner_options import CGPOptions, PPOOptions
+from rddlc.learner_options import CGPOptions, DRPOptions, PPOOptions
 
 
 def played(model: rddlc.Learner, env: rddlc.RDDLEnv, seed: int) -> float:
@@ -39,7 +39,9 @@ class Learners(unittest.TestCase):
     def models(self) -> list[rddlc.Learner]:
         problem = example("mountain_car").problem
         ppo = rddlc.PPO(problem, environments=4, rollout=16, minibatch=64, seed=1)
-        return [ppo.learn(200), rddlc.CGP(problem, children=4, nodes=20, seed=1).learn(5)]
+        cgp = rddlc.CGP(problem, children=4, nodes=20, seed=1)
+        drp = rddlc.DRP(problem, hidden=8, seed=1)
+        return [ppo.learn(200), cgp.learn(5), drp.learn(1)]
 
     def recurrent(self) -> rddlc.Learner:
         maze = example("t_maze").problem
@@ -84,7 +86,7 @@ class Learners(unittest.TestCase):
             envs.step(actions)
 
     def test_learning_goes_on(self) -> None:
-        ppo, cgp = self.models()
+        ppo, cgp, _ = self.models()
         before = ppo.steps, cgp.steps
         ppo.learn(200)
         cgp.learn(5)
@@ -276,6 +278,12 @@ class Learners(unittest.TestCase):
                 rddlc.PPO.load(formula, problem)
             with self.assertRaisesRegex(rddlc.ArgumentError, r"x\.json'.* PPO .*rddlc\.PPO\.load"):
                 rddlc.CGP.load(network, problem)
+            reactive = rddlc.DRP(problem, hidden=8, horizon=4).learn(1).save(Path(name) / "y.json")
+            self.assertIsInstance(rddlc.DRP.load(reactive, problem), rddlc.DRP)
+            with self.assertRaisesRegex(rddlc.ArgumentError, r"y\.json'.* DRP .*rddlc\.DRP\.load"):
+                rddlc.PPO.load(reactive, problem)
+            with self.assertRaisesRegex(rddlc.ArgumentError, r"x\.json'.* PPO .*rddlc\.PPO\.load"):
+                rddlc.DRP.load(network, problem)
 
     def test_keywords_that_are_not_known_are_refused_with_what_was_meant(self) -> None:
         problem = example("network").problem
@@ -304,7 +312,11 @@ class Learners(unittest.TestCase):
             lifted="off", parsimony=False, time=True, compat="none", islands=1, migrate_every=0,
             threads=1, seed=3, memory_limit=2**30,
         ).learn(2)  # fmt: skip
-        for learner in rddlc.PPO, rddlc.CGP:
+        rddlc.DRP(
+            problem, episodes=8, horizon=3, learning_rate=1e-3, clip=2.0, relax="exact", sharpness=5,
+            hidden=(8, 8), activation="relu", time_input=False, seed=3, memory_limit=2**30,
+        ).learn(24)  # fmt: skip
+        for learner in rddlc.PPO, rddlc.CGP, rddlc.DRP:
             self.assertIn("\n    memory_limit: ", str(learner.__doc__))
 
     def test_policies_do_not_act_in_other_problems(self) -> None:
@@ -505,7 +517,8 @@ class Verbs(unittest.TestCase):
             rddlc.PPO(problem, imitate=nothing)
 
     def test_options_are_typed_as_they_are(self) -> None:
-        for kind, options in ((rddlc.PPO, PPOOptions), (rddlc.CGP, CGPOptions)):
+        kinds = ((rddlc.PPO, PPOOptions), (rddlc.CGP, CGPOptions), (rddlc.DRP, DRPOptions))
+        for kind, options in kinds:
             named = re.findall(r"^ +(\w+): ", kind.__doc__ or "", re.MULTILINE)
             self.assertEqual(sorted(named), sorted(get_type_hints(options)))
         with self.assertRaisesRegex(rddlc.ArgumentError, "did you mean 'learning_rate'"):

@@ -145,7 +145,13 @@ class NativeWriters(unittest.TestCase):
             env.set_state(before)
             env.step({"add___b": two})
             after.add(env.get_state())
+        for two in ([2], (2.0,), [np.array([2])]):
+            env.set_state(before)
+            env.step({"add___b": two})
+            after.add(env.get_state())
         self.assertEqual(len(after), 1)
+        with self.assertRaises(rddlc.ActionError):
+            env.step({"add___b": [2, 2]})
 
     def test_ints_that_no_double_is_arrive_as_they_are(self) -> None:
         for env in (rddlc.make(WIDE), rddlc.make(WIDE, vectorized=True)):

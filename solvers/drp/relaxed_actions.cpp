@@ -40,14 +40,6 @@ RelaxedActions::RelaxedActions(const rddl_simulator& simulator, const ActionSpac
         is_object_.push_back(column.object_count > 0);
 }
 
-bool RelaxedActions::has_gradient() const {
-    return !reals_.empty() || std::ranges::any_of(space_.categories, [&](const CategoryHead& head) {
-        return !is_object_[static_cast<std::size_t>(head.column)];
-    }) || std::ranges::any_of(space_.choices, [&](const Choice& choice) {
-        return choice.column >= 0 && !is_object_[static_cast<std::size_t>(choice.column)];
-    });
-}
-
 void RelaxedActions::find_probabilities(const float* logits, int first, int count) {
     const float most = *std::max_element(logits + first, logits + first + count);
     double sum = 0;

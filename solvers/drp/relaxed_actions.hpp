@@ -22,9 +22,6 @@ class RelaxedActions {
     // `space` must outlive it.
     RelaxedActions(const rddl_simulator& simulator, const ActionSpace& space);
 
-    // Whether anything in an action has a derivative.
-    bool has_gradient() const;
-
     // Writes the action values of a lane, one for each column, from its row of the network's
     // outputs: numbers of reals, then logits.
     void write(const float* outputs, std::size_t lane, std::span<LaneNumbers> action);

@@ -53,10 +53,6 @@ ReturnGradient::ReturnGradient(const rddl_simulator& simulator, const PpoModel& 
       d_outputs_(rows_of(network_.padded_outputs())),
       d_inputs_(rows_of(padded(model.features()))),
       rows_(network_.rows) {
-    if (!actions_.has_gradient())
-        throw Failure(
-            "the return has no derivative by the actions of this problem: all are objects",
-            "'rddl train ppo' and 'rddl train cgp' need no derivatives");
     if (action_.size() != static_cast<std::size_t>(model.actions.column_count) ||
         state_count_ != static_cast<std::size_t>(model.observations.column_count()))
         own_mistake("derivatives and policies number the values of a problem differently");

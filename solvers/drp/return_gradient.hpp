@@ -22,7 +22,7 @@ namespace rddlc::solvers {
 
 class ReturnGradient {
   public:
-    // All that is referred to must outlive this. Throws a Failure where no action has a derivative.
+    // All that is referred to must outlive this.
     // `sees_ends`: whether episodes end where the problem says so. Relaxed conditions do not tell.
     ReturnGradient(const rddl_simulator& simulator, const PpoModel& model,
                    StepDerivatives& derivatives, std::int64_t horizon, bool sees_ends);

@@ -24,6 +24,9 @@ Trainee drp_trainee(const rddl_simulator& simulator, const DrpOptions& options,
     trainee.update = [=] {
         trainer->update();
     };
+    trainee.update_until = [=](const Stops& is_late) {
+        trainer->update(is_late);
+    };
     trainee.done = [=] {
         return trainer->done();
     };

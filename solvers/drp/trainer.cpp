@@ -3,6 +3,7 @@
 #include "solvers/drp/return_gradient.hpp"
 #include "solvers/files/checkpoint.hpp"
 #include "solvers/network/adam.hpp"
+#include "solvers/spaces/refusals.hpp"
 #include "support/failure.hpp"
 
 #include <rddl/random/random.hpp>
@@ -29,17 +30,12 @@ constexpr double least_deviation = 0.01;
 
 std::int64_t horizon_of(const rddl_simulator& simulator, const DrpOptions& options) {
     const std::int64_t horizon = options.horizon.value_or(simulator.problem->horizon);
-    if (horizon > 0) return horizon;
-    throw Failure("gradients go back from the end of episodes, and this problem has no horizon",
-                  "give one: --horizon N", usage_error);
+    require_choices(simulator);
+    require_a_gradient_to_learn(simulator, horizon);
+    return horizon;
 }
 
 PpoModel model_of(const rddl_simulator& simulator, const DrpOptions& options) {
-    if (simulator.problem->partially_observed)
-        throw Failure(
-            fmt::format("'rddl train drp' needs the state, which {} ({}) hides from policies",
-                        simulator.problem->instance, simulator.problem->domain),
-            "'rddl train ppo --recurrent 32' learns from observations");
     PpoOptions network;
     network.squashes = true;  // no bound without a slope
     network.noise = Noise::White;
@@ -98,19 +94,18 @@ struct DrpTrainer::State {
         return options.relaxation == Relaxation::Mode::Soft && derivatives->can_be_relaxed();
     }
 
-    bool is_stopped() const { return options.stops && options.stops(); }
-
-    // The gradient of the mean return, and the features that were seen.
-    void find_gradient() {
+    // The gradient of the mean return, and the features that were seen; neither where `ends` says
+    // so.
+    void find_gradient(const Stops& ends) {
         std::ranges::fill(gradient, 0.0f);
         std::ranges::fill(seen, Moments{});
         double sum = 0, count = 0;
-        for (int group = 0; group < groups && !is_stopped(); ++group) {
+        for (int group = 0; group < groups && !ends(); ++group) {
             std::array<std::uint64_t, derivative_lanes> seeds{};
             for (int k = 0; k < lanes; ++k)
                 seeds[static_cast<std::size_t>(k)] =
                     seed_of(options.seed, progress.gradients, group * lanes + k);
-            gradient_of_return.add(seeds, gradient, seen, options.stops);
+            gradient_of_return.add(seeds, gradient, seen, ends);
             progress.steps += gradient_of_return.steps();
             for (const double each : gradient_of_return.returns()) {
                 if (!std::isfinite(each)) continue;
@@ -118,7 +113,7 @@ struct DrpTrainer::State {
                 count += 1;
             }
         }
-        if (is_stopped()) return;
+        if (ends()) return;
         if (count == 0)
             throw Failure(fmt::format("no episode of gradient {} has a finite return",
                                       progress.gradients + 1),
@@ -155,23 +150,26 @@ struct DrpTrainer::State {
              second_moments, model.parameters);
     }
 
-    void update() {
+    void update(const Stops& is_late) {
+        const Stops ends = [&] {
+            return is_stopped(&options.stops) || is_stopped(&is_late);
+        };
         const auto begin = std::chrono::steady_clock::now();
         returns = {};
         const std::int64_t before = progress.steps;
         if (progress.gradients == 0) {  // the first scales; nothing is learned yet
-            find_gradient();
-            if (is_stopped()) return;
+            find_gradient(ends);
+            if (ends()) return;
             learn_scales();
         }
         for (int g = 0; g < most_gradients_of_update; ++g) {
-            find_gradient();
-            if (is_stopped()) return;
+            find_gradient(ends);
+            if (ends()) break;
             climb();
             learn_scales();
             if (progress.steps - before >= steps_of_update) break;
         }
-        progress.mean_return = returns.sum / returns.count;
+        if (returns.count > 0) progress.mean_return = returns.sum / returns.count;
         progress.seconds =
             std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     }
@@ -218,8 +216,8 @@ DrpTrainer::DrpTrainer(const rddl_simulator& simulator, const DrpOptions& option
 }
 DrpTrainer::~DrpTrainer() = default;
 
-void DrpTrainer::update() {
-    state_->update();
+void DrpTrainer::update(const Stops& is_late) {
+    state_->update(is_late);
 }
 bool DrpTrainer::done() const {
     return state_->progress.steps >= state_->options.steps;

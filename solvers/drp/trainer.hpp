@@ -6,6 +6,7 @@
 // options give the same bytes on the same kind of processor.
 #pragma once
 
+#include "solvers/batches/stops.hpp"
 #include "solvers/drp/options.hpp"
 #include "solvers/gradients/step_derivatives.hpp"
 #include "solvers/ppo/model.hpp"
@@ -35,8 +36,9 @@ class DrpTrainer {
                const DerivativesSource& derivatives);
     ~DrpTrainer();
 
-    // Some gradient steps. Throws a Failure where no episode of one has a finite return.
-    void update();
+    // Some gradient steps; no more of them once `is_late` says so, which is asked often. Throws a
+    // Failure where no episode of one has a finite return.
+    void update(const Stops& is_late = {});
     bool done() const;  // the options' steps are made
 
     const PpoModel& model() const;

@@ -59,6 +59,7 @@ struct Policy {
         priors = {};
     // Its estimates in so many environments; empty where it has none. The policy must outlive them.
     std::function<StateValues(std::int64_t environments)> values = {};
+    double value_discount = 1;  // of the rewards that these estimates sum up
 };
 
 // Throws a Failure where the policy is of other spaces than those of the simulator.

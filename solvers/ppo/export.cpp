@@ -209,9 +209,10 @@ std::string outputs_comment(const CategoryHead& head, const std::vector<std::str
 
 std::string ppo_policy_cpp(const PpoModel& model) {
     const Network& network = model.policy;
-    std::string text =
-        "// A policy that rddl train ppo has learned; rddl export wrote it.\n"
-        "// Features:";
+    std::string text = fmt::format(
+        "// A policy that rddl train {} has learned; rddl export wrote it.\n"
+        "// Features:",
+        model.solver);
     for (int k = 0; k < model.observations.stack; ++k)
         for (const std::string& feature : model.observations.features)
             text += fmt::format("\n//   {}{}", feature,

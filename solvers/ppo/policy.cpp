@@ -287,6 +287,7 @@ Policy ppo_policy(const rddl_simulator& simulator, std::shared_ptr<const PpoMode
                 priors->write(batch, steps, rows);
             };
         };
+    policy.value_discount = model->value_discount;
     if (model->value_scale > 0)
         policy.values = [&simulator, model](std::int64_t environments) -> StateValues {
             const auto values = std::make_shared<PpoValues>(simulator, model, environments);

@@ -423,6 +423,12 @@ std::string ppo_policy_text(const rddl_simulator& simulator, const PpoModel& mod
     return text + "\n";
 }
 
+std::string solver_of_network(std::string_view text) {
+    const Json json = Json::parse(text, nullptr, false);
+    const bool is_drp = json.is_object() && json.contains("solver") && json["solver"] == "drp";
+    return is_drp ? "drp" : "ppo";
+}
+
 std::shared_ptr<const PpoModel> read_ppo_policy(const rddl_simulator& simulator,
                                                 std::string_view text, std::int64_t memory_limit) {
     require_memory_for(text, memory_limit);

@@ -24,4 +24,7 @@ std::shared_ptr<const PpoModel> read_ppo_policy(const rddl_simulator& simulator,
                                                 std::string_view text,
                                                 std::int64_t memory_limit = default_memory_limit);
 
+// The solver that a policy's text names: "ppo" or "drp". "ppo" where it is no such text.
+std::string solver_of_network(std::string_view text);
+
 }  // namespace rddlc::solvers

@@ -146,8 +146,8 @@ ActionRecords::ActionRecords(const rddl_simulator& simulator)
     for (const rddl_column& column : action_columns(simulator)) {
         const rddl_fluent& fluent = *rddl_fluent_at(simulator.problem, column.fluent);
         const std::int64_t size = fluent.scalar == RDDL_BOOL ? 1 : 8;
-        entries_.push_back(
-            {static_cast<std::size_t>(fluent.offset + column.grounding * size), fluent.scalar});
+        entries_.push_back({static_cast<std::size_t>(fluent.offset + column.grounding * size),
+                            fluent.scalar, column.lower, column.upper});
     }
     defaults_.resize(entries_.size());
     read(blank_.data(), defaults_.data());
@@ -159,7 +159,10 @@ void ActionRecords::write(const float* values, std::byte* record) const {
         if (values[c] == defaults_[c]) continue;
         const Entry& entry = entries_[c];
         const auto value = static_cast<double>(values[c]);
-        entry.set(entry.scalar == RDDL_INT ? std::nearbyint(value) : value, record);
+        entry.set(entry.scalar == RDDL_INT    ? std::nearbyint(value)
+                  : entry.scalar == RDDL_REAL ? std::min(std::max(value, entry.lower), entry.upper)
+                                              : value,
+                  record);
     }
 }
 

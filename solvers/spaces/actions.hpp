@@ -112,7 +112,8 @@ void read_action(const ActionSpace& space, const float* values, float* numbers,
                  std::int32_t* indices);
 
 // Action rows as records and back. Constant for a problem. A value that is the default in the row's
-// precision becomes the default itself: 0.1f is no change of 0.1.
+// precision becomes the default itself: 0.1f is no change of 0.1. A real beyond its bounds becomes
+// the bound: 0.1f lies above 0.1.
 class ActionRecords {
   public:
     explicit ActionRecords(const rddl_simulator& simulator);
@@ -124,6 +125,7 @@ class ActionRecords {
     struct Entry {
         std::size_t offset;
         rddl_scalar scalar;
+        double lower, upper;  // of a real; infinite where it has no bound
         // Writes a value in the type that it has there: of an int a whole number, and a number
         // above 0.5 is true.
         void set(double value, std::byte* record) const;

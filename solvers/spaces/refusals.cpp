@@ -3,6 +3,10 @@
 #include "solvers/spaces/actions.hpp"
 #include "support/failure.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+
 namespace rddlc::solvers {
 
 namespace {
@@ -27,11 +31,36 @@ void require_an_end_to_learn(const rddl_problem& problem) {
     if (is_endless(problem, problem.horizon)) throw Failure(endless);
 }
 
-Refusals refusals(const rddl_simulator& simulator) {
+void require_a_gradient_to_learn(const rddl_simulator& simulator, std::int64_t horizon) {
+    const rddl_problem& problem = *simulator.problem;
+    if (horizon == 0)
+        throw Failure("gradients go back from the end of episodes, and this problem has no horizon",
+                      "give one: --horizon N", usage_error);
+    if (problem.partially_observed)
+        throw Failure(
+            fmt::format("'rddl train drp' needs the state, which {} ({}) hides from policies",
+                        problem.instance, problem.domain),
+            "'rddl train ppo --recurrent 32' learns from observations");
+    const auto is_object = [](const rddl_column& column) {
+        return column.object_count > 0;
+    };
+    if (std::ranges::all_of(action_columns(simulator), is_object))
+        throw Failure(
+            "the return has no derivative by the actions of this problem: all are objects",
+            "'rddl train ppo' and 'rddl train cgp' need no derivatives");
+}
+
+Refusals refusals(const rddl_simulator& simulator,
+                  const std::optional<std::string>& no_derivatives) {
     // CGP ends episodes by itself.
     const auto by_actions = sentence_of([&] { require_choices(simulator); });
     const auto by_end = sentence_of([&] { require_an_end_to_learn(*simulator.problem); });
-    return {by_end ? by_end : by_actions, by_actions};
+    const auto by_gradient = sentence_of(
+        [&] { require_a_gradient_to_learn(simulator, simulator.problem->horizon); });
+    return {by_end ? by_end : by_actions, by_actions,
+            by_actions    ? by_actions
+            : by_gradient ? by_gradient
+                          : no_derivatives};
 }
 
 }  // namespace rddlc::solvers

@@ -12,9 +12,11 @@ namespace rddlc::solvers {
 // Why a learner does not take the problem, in the sentence by which it refuses to train; nothing
 // where it does. Options that ask for more, as --compat does, may be refused nevertheless.
 struct Refusals {
-    std::optional<std::string> ppo, cgp;
+    std::optional<std::string> ppo, cgp, drp;
 };
-Refusals refusals(const rddl_simulator& simulator);
+// `no_derivatives` is why there are no derivatives of a step, which drp needs.
+Refusals refusals(const rddl_simulator& simulator,
+                  const std::optional<std::string>& no_derivatives = {});
 
 // Whether nothing ends an episode of so many steps, 0 for no horizon; and the sentence that says
 // so.
@@ -24,5 +26,9 @@ inline constexpr const char* endless =
 
 // An episode that nothing ends would never be learned from. Throws a Failure.
 void require_an_end_to_learn(const rddl_problem& problem);
+
+// Gradients of a return go back from the horizon, by states that are seen and actions that are not
+// all objects. `horizon` is that of episodes; 0: none. Throws a Failure.
+void require_a_gradient_to_learn(const rddl_simulator& simulator, std::int64_t horizon);
 
 }  // namespace rddlc::solvers

@@ -154,14 +154,21 @@ class Training {
     // the same to the byte.
     bool update() {
         if (!trainee_.ends_early) {
-            trainee_.update();
+            work();
             return true;
         }
         const std::string before = trainee_.save();
-        trainee_.update();
+        work();
         result_.interrupted = options_.stops && options_.stops();
         if (result_.interrupted) trainee_.load(before);
         return !result_.interrupted;
+    }
+
+    void work() {
+        if (options_.seconds > 0 && trainee_.update_until)
+            trainee_.update_until([this] { return elapsed() >= options_.seconds; });
+        else
+            trainee_.update();
     }
 
     // Ranks evaluate together, and their clocks differ.

@@ -1,6 +1,7 @@
 // Training of any learner: its progress, its files, and when it ends.
 #pragma once
 
+#include "solvers/batches/stops.hpp"
 #include "solvers/policies/policy.hpp"
 #include "solvers/ranks/ranks.hpp"
 #include "support/memory.hpp"
@@ -37,6 +38,9 @@ struct Trainee {
     // The first work of a new run. Returns a message about it; may be empty.
     std::function<std::string()> prepare = {};
     std::function<void()> update;         // a little more work
+    // The same in a run that has a time: work that is_late ends. May be empty, where updates are
+    // short.
+    std::function<void(const Stops& is_late)> update_until = {};
     std::function<bool()> done;           // all that was asked for
     std::function<std::int64_t()> steps;  // made, or whatever progress is measured in
     std::function<double()> part_done;    // in [0, 1]

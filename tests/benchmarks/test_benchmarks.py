@@ -15,12 +15,14 @@ from pathlib import Path
 from unittest.mock import patch
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "benchmarks"))
+sys.path[:0] = [str(ROOT / "benchmarks"), str(ROOT / "benchmarks/solvers")]
 
 import bench  # noqa: E402
 import cliffs  # noqa: E402
 import compare  # noqa: E402
+import compare_all  # noqa: E402
 import compare_jax  # noqa: E402
+import comparison_tables  # noqa: E402
 import document  # noqa: E402
 import growth  # noqa: E402
 import handwritten  # noqa: E402
@@ -152,6 +154,67 @@ class CompareJax(unittest.TestCase):
             bench.bench(Path(RDDL), PROBLEM, "--seconds", 5, limit=0.01)
 
 
+class CompareAll(unittest.TestCase):
+    """Returns of all methods on many problems."""
+
+    def result(self, problem: str, method: str, mean: float, half_width: float = 0, **more) -> dict:
+        return {"problem": problem, "instance": "1", "method": method, "mean": mean, "half_width": half_width} | more
+
+    def floors(self, problem: str) -> list[dict]:
+        return [self.result(problem, "noop", 0), self.result(problem, "random", -5, 2)]
+
+    def test_plays_and_goes_on(self):
+        with tempfile.TemporaryDirectory() as folder:
+            options = ["--out", Path(folder) / "r.jsonl", "--only", "Navigation_MDP", "--steps", 100, "--episodes", 2]
+            options += ["--seconds", 0.1, "--methods", "noop", "random", "cgp", "rollout"]
+            status, text = run_program(compare_all.main, "--rddl", RDDL, *options)
+            self.assertEqual(status, 0, text)
+            results = {result["method"]: result for result in map(json.loads, text.splitlines())}
+            self.assertEqual(set(results), {"noop", "random", "cgp", "rollout"})
+            self.assertIn(results["rollout"]["policy"], ("noop", "random", "cgp"))
+            self.assertEqual(results["rollout"]["steps"], 100)
+
+    def test_better_than_floors(self):
+        better = self.floors("a") + [self.result("a", "cem", 1), self.result("a", "uct", -9)]
+        equal = self.floors("b") + [self.result("b", "cem", 0)]
+        by_chance = self.floors("c") + [self.result("c", "cem", 1, 4)]
+        rows = comparison_tables.rows_of(better + equal + by_chance)
+        self.assertEqual([row.name for row in comparison_tables.rows_like_floors(rows)], ["b 1", "c 1"])
+        self.assertEqual(comparison_tables.shortfalls(better + equal + by_chance), [])
+
+    def test_shortfalls(self):
+        found_by_them = self.floors("a") + [self.result("a", "cem", 0), self.result("a", "prost", 3)]
+        possible = self.floors("b") + [self.result("b", "cem", 0), self.result("b", "optimum", 3)]
+        discounted = self.floors("c") + [self.result("c", "cem", 0), self.result("c", "optimum", 3, discount=0.9)]
+        within_errors = self.floors("d") + [self.result("d", "uct", 4, 2), self.result("d", "prost", 7, 3)]
+        self.assertEqual(
+            comparison_tables.shortfalls(found_by_them + possible + discounted + within_errors),
+            [
+                "a 1: somebody is better than no-op and random, and none of ours is",
+                "b 1: somebody is better than no-op and random, and none of ours is",
+                "ours is worse than theirs on 1 of 2: a 1",
+            ],
+        )
+
+    def test_table(self):
+        failure = {"problem": "a", "instance": "1", "method": "cgp", "failure": "longer than 60 s"}
+        effort = {"seconds": 0.3, "decisions": 100, "steps": 2000, "options": "horizon=2"}
+        cem = self.result("a", "cem", 2, 0.5, episodes=3, **effort)
+        ppo = self.result("a", "ppo", 1.5, training_seconds=10, episodes=3)
+        rows = comparison_tables.rows_of([ppo, failure, cem, self.result("a", "optimum", 2.2)])
+        self.assertEqual(
+            comparison_tables.table(rows).splitlines()[::2],
+            [
+                "| problem | | PPO | CGP | `plan:cem` | optimum | effort |",
+                "| a | 1 | 1.5 | time | **2 ± 0.5** | 2.2 | 10 s, -, 3 |",
+            ],
+        )
+        self.assertEqual(
+            comparison_tables.settings_text(rows),
+            "Episodes: PPO 3, `plan:cem` 3 (2,000 steps a decision; `horizon=2` on a 1).",
+        )
+
+
 class Cliffs(unittest.TestCase):
     def test_measures_and_goes_on(self):
         with tempfile.TemporaryDirectory() as folder:
@@ -222,7 +285,7 @@ class Handwritten(unittest.TestCase):
     def test_references_are_there(self):
         problems = handwritten.REFERENCES
         for reference in problems.values():
-            self.assertIn(f"struct {reference.struct} {{", (handwritten.FOLDER / f"{reference.header}.hpp").read_text())
+            self.assertIn(f"struct {reference.struct} ", (handwritten.FOLDER / f"{reference.header}.hpp").read_text())
         families = Counter(reference.family for reference in problems.values())
         self.assertEqual(len(families), 6)
         self.assertGreaterEqual(min(families.values()), 4)
@@ -324,7 +387,8 @@ class Document(unittest.TestCase):
 
     def test_sections_of_the_pages_exist(self):
         text = "".join(page.read_text() for page in document.DOCUMENTS)
-        for name in ("comparison", "comparison by problem", "jax", "jax by problem", "handwritten", "lanes", "growth", "compile cost"):
+        benchmarks = ("comparison", "comparison by problem", "jax", "jax by problem", "handwritten", "lanes", "growth", "compile cost")
+        for name in (*benchmarks, "all problems", "IPPC 2023", "IPPC 2011"):
             self.assertEqual(text.count(f"<!-- begin of {name} -->"), 1, name)
             self.assertEqual(text.count(f"<!-- end of {name} -->"), 1, name)
 

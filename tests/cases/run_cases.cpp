@@ -115,7 +115,7 @@ void expect_part(const Case& expected, const std::string& file, const std::strin
 std::vector<std::string> command_of(const fs::path& source, const fs::path& output,
                                     const std::vector<std::string>& more) {
     auto command = shared_object_command(source, output, Processors::Any);
-    command.insert(command.end() - 1, {"-O1", "-Wall", "-Wextra", "-Wshadow", "-Werror"});
+    command.insert(command.end() - 1, {"-O0", "-Wall", "-Wextra", "-Wshadow", "-Werror"});
     command.insert(command.end() - 1, more.begin(), more.end());
     return command;
 }

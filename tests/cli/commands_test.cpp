@@ -196,7 +196,7 @@ TEST_F(Program, DescribesAProblem) {
          {"tanks_1 (instance.rddl)", "12 steps", "at most 2 of 5 may differ from the default",
           "action choices   5: the default, or 4 changes of one value",
           "stochastic: water', reward", "Exponential, Normal", "mixed, concurrent",
-          "3 action-preconditions", "train ppo      yes\ntrain cgp      yes\n",
+          "3 action-preconditions", "train ppo      yes\ntrain cgp      yes\ntrain drp      yes\n",
           "tank     object            3  t1, t2, t3", "[-2, 1]"})
         EXPECT_NE(outcome.out.find(part), std::string::npos) << part << '\n' << outcome.out;
 }
@@ -213,7 +213,7 @@ TEST_F(Program, TellsWhichLearnersTakeAProblem) {
     EXPECT_EQ(outcome.status, 0) << outcome.err;
     const std::string reason =
         "there is nothing to choose in this problem: it has no action but the default";
-    for (const std::string learner : {"train ppo", "train cgp"})
+    for (const std::string learner : {"train ppo", "train cgp", "train drp"})
         EXPECT_NE(outcome.out.find(learner + "    no: " + reason + "\n"), std::string::npos)
             << outcome.out;
     const json learners = run_json("info idle.rddl idle_1.rddl --json")["learners"];

@@ -170,6 +170,28 @@ TEST_F(BuilderTest, SimplifiesLogic) {
     EXPECT_EQ(w.apply(Operator::Equivalent, w.boolean(false), up()), w.apply(Operator::Not, up()));
 }
 
+TEST_F(BuilderTest, ComparesNumbersInPlaceOfSigns) {
+    const NodeId sign = w.apply(Operator::Sign, level()), of_int = w.apply(Operator::Sign, count());
+    EXPECT_EQ(text(w.apply(Operator::Equal, sign, w.integer(0))), "state.level == 0.0");
+    EXPECT_EQ(text(w.apply(Operator::NotEqual, of_int, w.integer(0))), "state.count != 0");
+    EXPECT_EQ(text(w.apply(Operator::Greater, sign, w.integer(0))), "sign(state.level) > 0");
+    EXPECT_EQ(text(w.apply(Operator::Equal, sign, of_int)),
+              "state.level > 0.0 == state.count > 0 && state.level < 0.0 == state.count < 0 && "
+              "state.level == 0.0 == (state.count == 0)");
+    // nan has a sign of its own, which these comparisons tell from that of 0.
+    constexpr double inf = std::numeric_limits<double>::infinity();
+    constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+    for (const double a : {-2.0, -0.0, 0.0, 3.0, nan}) {
+        for (const double b : {-inf, -0.0, 1.0, nan}) {
+            const bool agree = (a > 0) == (b > 0) && (a < 0) == (b < 0) && (a == 0) == (b == 0);
+            EXPECT_EQ(w.apply(Operator::Equal, w.apply(Operator::Sign, w.real(a)),
+                              w.apply(Operator::Sign, w.real(b))),
+                      w.boolean(agree))
+                << a << ", " << b;
+        }
+    }
+}
+
 TEST_F(BuilderTest, NegatesOrdersOfIntsOnly) {
     const NodeId of_ints = w.apply(Operator::Less, count(), w.integer(3));
     EXPECT_EQ(text(w.apply(Operator::Not, of_ints)), "state.count >= 3");

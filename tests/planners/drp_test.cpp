@@ -130,6 +130,15 @@ TEST(Drp, GoesOnAsIfItHadNotStopped) {
     EXPECT_EQ(whole.model().normaliser.means, second.model().normaliser.means);
     EXPECT_EQ(whole.progress().mean_return, second.progress().mean_return);
 
+    // A clock ends an update of 20 gradients where it is.
+    int asked = 0;
+    const std::int64_t before = second.progress().gradients;
+    second.update([&asked] { return ++asked > 200; });
+    EXPECT_GT(second.progress().gradients, before);
+    EXPECT_LT(second.progress().gradients, before + 10);
+    second.update([] { return true; });
+    EXPECT_TRUE(std::isfinite(second.progress().mean_return));
+
     options.hidden = {8};
     DrpTrainer other(network(), options, source);
     EXPECT_EQ(complaint([&] { other.load(whole.save()); }),

@@ -1,10 +1,12 @@
 // plan:uct where actions are drawn, and its tree of histories.
 #include "planners/uct/history_tree.hpp"
+#include "planners/uct/search_rules.hpp"
 #include "planning.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cstring>
+#include <limits>
 
 namespace rddlc::planners {
 namespace {
@@ -31,6 +33,15 @@ TEST(HistoryTree, FindsWhatItWasGiven) {
     EXPECT_EQ(ones, 6);
 }
 
+TEST(SearchRules, ReturnsThatAreAlikeMayStillDiffer) {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    EXPECT_EQ(range_of_returns(infinity, -infinity), 0);  // nothing was seen
+    EXPECT_EQ(range_of_returns(0, 0), 0);
+    EXPECT_EQ(range_of_returns(-3, 8), 11);
+    EXPECT_EQ(range_of_returns(-200, -199.5), 4);
+    EXPECT_EQ(range_of_returns(300, 300), 6);
+}
+
 // The optimum of the target is -0.116, that of no-op -1.
 TEST(HistorySearch, DrawsActionsThatCannotBeListed) {
     const Played plan = run(target(), "plan:uct,iterations=20000");
@@ -48,6 +59,14 @@ TEST(HistorySearch, DrawsActionsWhereThereAreTooMany) {
     const Played plan = run(network(), "plan:uct,actions=2,iterations=500", 10);
     EXPECT_GT(plan.mean(), 150);  // random actions: 138, no-op 97
     EXPECT_EQ(plan.summary.illegal_actions, 0);
+}
+
+// Each throttle costs fuel, and the flag is further away than trials get.
+TEST(HistorySearch, DoesNothingWhereAllElseIsWorse) {
+    const Played plan = run(car(), "plan:uct,steps=20000,horizon=20");
+    EXPECT_EQ(plan.mean(), 0);
+    EXPECT_EQ(plan.thought(0, 0).candidates.front().name, "noop");
+    EXPECT_GT(plan.thought(0, 0).candidates.size(), 2u);
 }
 
 TEST(HistorySearch, IsTheSameOnAnyNumberOfThreads) {

@@ -39,6 +39,13 @@ TEST(PlannerNames, AreReadWithTheirOptions) {
     EXPECT_EQ(refusal("plan:rollout"),
               "plan:rollout improves a policy: say which one, as in plan:rollout,policy=random");
     EXPECT_NE(refusal("plan:"), "");
+    for (const std::string planner : {"plan:cem,tail=value", "plan:uct,initial=value"}) {
+        const std::size_t comma = planner.find(',');
+        EXPECT_EQ(refusal(planner), planner.substr(0, comma) + ": " + planner.substr(comma + 1) +
+                                        " needs a policy that estimates values, as in "
+                                        "policy=runs/a after 'rddl train ppo --out runs/a'");
+        EXPECT_EQ(refusal(planner + ",policy=runs/a"), "");
+    }
 }
 
 // The sections of docs/planning.md.

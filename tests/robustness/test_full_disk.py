@@ -182,19 +182,19 @@ class FullDisk(CommandTest):
     def test_compilers_that_find_no_room(self):
         """The real compiler, at limits of which the smallest stop ourselves."""
         self.start_with([], None)
-        for most in 100, 20_000:
+        rddlc = [RDDLC, "domain.rddl", "instance.rddl", "-o", "sim.so"]
+        rddl = [RDDL, "run", "domain.rddl", "instance.rddl", "--engine=compiled", "--quiet"]
+        for most, words in (100, rddlc), (100, rddl), (20_000, rddlc):
             def limit_files(most=most):
                 signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
                 resource.setrlimit(resource.RLIMIT_FSIZE, (most, most))
-            for words in ([RDDLC, "domain.rddl", "instance.rddl", "-o", "sim.so"],
-                          [RDDL, "run", "domain.rddl", "instance.rddl", "--engine=compiled", "--quiet"]):
-                result = self.run_command(
-                    *words, environment={**self.environment, "CXX": "sh quick_compiler.sh"},
-                    preexec_fn=limit_files)
-                self.assertEqual(result.status, DIAGNOSED, result)
-                self.assertRegex(result.errors, "File too large|File size limit|E0910")
-                self.assertFalse((self.folder / "sim.so").exists())
-                self.assertEqual(self.left_behind(), [])
+            result = self.run_command(
+                *words, environment={**self.environment, "CXX": "sh quick_compiler.sh"},
+                preexec_fn=limit_files)
+            self.assertEqual(result.status, DIAGNOSED, result)
+            self.assertRegex(result.errors, "File too large|File size limit|E0910")
+            self.assertFalse((self.folder / "sim.so").exists())
+            self.assertEqual(self.left_behind(), [])
 
 
 if __name__ == "__main__":

@@ -4,6 +4,7 @@
 
 #include "action_batch.hpp"
 #include "simulators.hpp"
+#include "solver_kite.h"
 #include "solvers/action_distribution/probabilities.hpp"
 #include "solvers/batches/batch.hpp"
 #include "solvers/ppo/loss.hpp"
@@ -11,6 +12,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <random>
 
@@ -324,6 +326,24 @@ TEST(Actions, AreTheDefaultWhereAPolicyHasNoNumber) {
                     EXPECT_EQ(values[column], space.defaults[column]);
                 }
         }
+    }
+}
+
+// Rows hold floats, and the float next to a bound may lie beyond it.
+TEST(Actions, KeepToBoundsThatFloatsDoNotHave) {
+    const rddl_simulator& kite = *rddl_simulator_kite_kite_1();
+    const ActionSpace space = action_space(kite);
+    const ActionRecords records(kite);
+    std::vector<std::byte> action(records.record_size());
+    for (const double bound : {-100.3, 100.3}) {
+        const float number = bound < 0 ? -2 : 2;
+        float value = 0;
+        write_action(space, &number, nullptr, &value);
+        EXPECT_NE(static_cast<double>(value), bound);
+        records.write(&value, action.data());
+        double written = 0;
+        std::memcpy(&written, action.data(), sizeof written);
+        EXPECT_EQ(written, bound);
     }
 }
 

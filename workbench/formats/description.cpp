@@ -1,8 +1,11 @@
 #include "formats/description.hpp"
 
+#include "autodiff/straight_line.hpp"
 #include "engines/interpreted_simulator.hpp"
 #include "problems/front_end.hpp"
 
+#include <optional>
+#include <string>
 #include <utility>
 
 namespace rddlc::workbench {
@@ -13,9 +16,10 @@ ProblemDescription describe(const ProblemFiles& files) {
     description.files = files;
     description.model = *std::move(compilation.model);
     description.characteristics = characteristics_of(description.model);
+    const std::optional<std::string> no_derivatives = autodiff::refusal_of(*compilation.program);
     description.simulator =
         interpreted_simulator(*std::move(compilation.program), std::move(compilation.sources));
-    description.refusals = solvers::refusals(*description.simulator);
+    description.refusals = solvers::refusals(*description.simulator, no_derivatives);
     return description;
 }
 

@@ -211,6 +211,7 @@ std::string characteristics_section(const Characteristics& c, const solvers::Ref
     if (!c.features.empty()) add("language", fmt::format("{}", fmt::join(c.features, ", ")));
     add("train ppo", learner_text(refusals.ppo));
     add("train cgp", learner_text(refusals.cgp));
+    add("train drp", learner_text(refusals.drp));
     return '\n' + table.text();
 }
 

@@ -60,7 +60,8 @@ Command export_command() {
         .is_required = true;
     add_option(
         command, "--as", "FORM",
-        "For CGP: formula (default), cpp, dot, svg, py, latex; for PPO: json (default), cpp, onnx",
+        "For CGP: formula (default), cpp, dot, svg, py, latex; for PPO and DRP: json (default), "
+        "cpp, onnx",
         [options](const std::string& form) { options->form = form; })
         .choices = {"formula", "json", "cpp", "dot", "svg", "py", "latex", "onnx"};
     add_text_option(command, "-o,--output", "FILE", "Output file (standard output)",

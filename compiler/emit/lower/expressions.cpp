@@ -251,7 +251,18 @@ tree::Expressions Expressions::place_of_draw(const ir::Place& place,
                              distribution == Distribution::Normal;
     const bool is_lone =
         may_be_lone && unit_.has_few_lone_draws && !several_ && unit_.is_lone(place);
-    return this->place(place, is_lone ? "rddl::LonePlace" : "");
+    if (is_lone) return this->place(place, "rddl::LonePlace");
+    return this->place(place, distribution == Distribution::Normal ? type_among(place) : "");
+}
+
+std::string Expressions::type_among(const ir::Place& place) const {
+    const auto* index = std::get_if<ir::Index>(&unit_.program[place.index].form);
+    const std::vector<ir::VariableId>& scope = unit_.program[place.site].scope;
+    if (scope.size() != 1) return "";
+    const ir::Variable& object = unit_.program[scope.front()];
+    const bool is_in_loop =
+        several_ || (index && unit_.program[index->variable].size == object.size);
+    return is_in_loop && object.size > 1 ? "rddl::PlaceAmong<" + unit_.size_of(object) + ">" : "";
 }
 
 tree::Expressions Expressions::place(const ir::Place& place, const std::string& type) {

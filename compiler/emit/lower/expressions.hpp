@@ -154,6 +154,8 @@ class Expressions {
     // interval.
     tree::Expressions place_of_draw(const ir::Place& place,
                                     std::optional<Distribution> distribution = {});
+    // "rddl::PlaceAmong<c_count>" in a loop over the objects of its scope, else "".
+    std::string type_among(const ir::Place& place) const;
     tree::Expression elements(tree::Expression table, std::span<const ir::NodeId> indices);
     tree::Expression view(const ir::TableView& view, bool is_written);
     tree::Statement external_call(const ir::Call& call);

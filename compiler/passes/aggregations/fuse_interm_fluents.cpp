@@ -61,7 +61,10 @@ class Fusion {
 
     static bool is_worth_it(const ir::Properties& properties, const Readers& readers,
                             const ir::Buffer& buffer) {
-        if (readers.places > 1 && properties.cost > cheap_to_repeat) return false;
+        // share_subexpressions gives a name to what one definition reads by the same indices.
+        const bool gets_a_name =
+            readers.definitions == 1 && readers.loads.size() == 1 && !readers.lazy;
+        if (readers.places > 1 && !gets_a_name && properties.cost > cheap_to_repeat) return false;
         if (buffer.count() == 1 && properties.cost > worth_a_definition) return false;
         const double before =
             static_cast<double>(buffer.count()) * (properties.cost + 1) + readers.reads;

@@ -20,8 +20,10 @@ class ReaderCounting {
         variables_.clear();
         std::set<ir::BufferId> read;
         visit(body, 1, read);
-        for (ir::BufferId buffer : read)
+        for (ir::BufferId buffer : read) {
+            ++readers_[buffer.index].definitions;
             readers_[buffer.index].variables.insert(variables_.begin(), variables_.end());
+        }
     }
 
     void count(const ir::Computation& computation) {

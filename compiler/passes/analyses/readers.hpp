@@ -13,6 +13,7 @@ struct Readers {
     // needs it.
     double reads = 0;
     double places = 0;              // how often a load of it stands in the text
+    int definitions = 0;            // how many read it; and the reward, if it does
     bool lazy = false;              // some of them are in a branch or in the body of an aggregation
     std::vector<ir::NodeId> loads;  // all of them, each once
     std::set<ir::VariableId> variables;  // bound in the definitions that read it

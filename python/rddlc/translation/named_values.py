@@ -75,7 +75,9 @@ class _Entry:
         self._lower, self._upper = column.bounds
 
     def value(self, given: Any) -> Any:
-        """Returns a Python number. Arrays of one element are that element."""
+        """Returns a Python number. Arrays and lists of one element are that element."""
+        if isinstance(given, (list, tuple)) and len(given) == 1:
+            return self.value(given[0])
         if isinstance(given, str):
             return self._index_of(given)
         if isinstance(given, np.ndarray):

@@ -217,4 +217,31 @@ template <int count>
 #endif
 }
 
+// Stores the lanes where the mask holds, one after the other, in memory that has room for a
+// register; returns how many there are.
+[[gnu::always_inline]] inline int store_chosen(MaskBits mask, Reals from, double* to) {
+#ifdef RDDL_SIMD_AVX512
+    const auto bits = static_cast<__mmask8>(mask);
+    _mm512_storeu_pd(to, _mm512_maskz_compress_pd(bits, from));
+#else
+    int next = 0;
+    for (std::uint64_t rest = mask; rest != 0; rest &= rest - 1)
+        to[next++] = from[__builtin_ctzll(rest)];
+#endif
+    return __builtin_popcount(mask);
+}
+// Loads the lanes where the mask holds from there; the others are those of `rest`. Returns how many
+// it has loaded.
+[[gnu::always_inline]] inline int load_chosen(MaskBits mask, const double* from, Reals& target) {
+#ifdef RDDL_SIMD_AVX512
+    const auto bits = static_cast<__mmask8>(mask);
+    target = _mm512_mask_expand_pd(target, bits, _mm512_loadu_pd(from));
+#else
+    int next = 0;
+    for (std::uint64_t rest = mask; rest != 0; rest &= rest - 1)
+        target[__builtin_ctzll(rest)] = from[next++];
+#endif
+    return __builtin_popcount(mask);
+}
+
 }  // namespace rddl::simd::inline RDDL_SIMD_LEVEL

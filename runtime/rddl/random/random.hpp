@@ -12,6 +12,7 @@
 #include <rddl/values/pack_ops.hpp>
 #include <rddl/values/philox.hpp>
 
+#include <algorithm>
 #include <array>
 #include <concepts>
 #include <cstddef>
@@ -155,7 +156,7 @@ template <std::uint32_t count, int n, class R>
 template <int n, class R>
 RDDL_INLINE Lanes<R, n> uniform_at(Context<Pack<n, R>>& context, Place place) {
     const auto& recent = context.recent[place.series % recent_series];
-    if (recent.series != place.series || place.index - recent.first >= recent.count) {
+    if (!recent.has(place)) {
         if (__builtin_constant_p(place.index))
             refill<2>(context, place.series, place.index);  // most likely there is no other one
         else
@@ -267,6 +268,34 @@ RDDL_INLINE R recent_number(Context<ScalarOf<R>>& context, Place place) {
 template <class R>
 RDDL_INLINE R uniform_at(Context<ScalarOf<R>>& context, Place place) {
     return recent_number<Uniform>(context, place);
+}
+
+// The standard normals of the indices from `first` up to `end`, at most so many that they are kept.
+template <class Normal, int n>
+[[gnu::noinline]] void refill_normals(Context<Pack<n>>& context, std::uint32_t series,
+                                      std::uint32_t first, std::uint32_t end) {
+    auto& recent = context.recent_normals[series % recent_series];
+    recent.series = series;
+    recent.first = first;
+    recent.count = end - first;
+    for (std::uint32_t i = 0; i < recent.count; ++i)
+        recent.numbers[i] = uniform_at(context, Place{series, first + i});
+    Normal::replace(recent.numbers, recent.count);
+}
+// A draw of a loop in packs, whose normals are made together with some of its neighbours'.
+template <class Normal, int n, Index count>
+requires(n > 1 && n <= 16 && requires {
+    &Normal::template replace<n>;
+}) RDDL_INLINE Lanes<double, n> standard_at(Context<Pack<n>>& context, PlaceAmong<count> place) {
+    constexpr std::uint32_t most = Context<Pack<n>>::most_numbers;
+    const auto& recent = context.recent_normals[place.series % recent_series];
+    if (!recent.has(place)) {
+        if (count == 2 && !context.recent[place.series % recent_series].has(place))
+            refill<2>(context, place.series, place.index);
+        const std::uint32_t end = std::min<std::uint32_t>((place.index / most + 1) * most, count);
+        refill_normals<Normal>(context, place.series, place.index, end);
+    }
+    return recent.numbers[place.index - recent.first];
 }
 
 // A draw of a standard distribution. A single environment also draws the neighbours' numbers, in

@@ -271,9 +271,30 @@ void write_bools(const Mask<n>* masks, std::int64_t count, std::byte* rows, std:
     }
 }
 
+// So few masks are joined one by one: where masks choose the lanes of registers, that is an
+// instruction or two for each, and none of them waits in memory for its neighbours.
+#ifdef RDDL_SIMD_AVX512
+inline constexpr int most_joined = 8;
+#else
+inline constexpr int most_joined = 0;
+#endif
+template <int count, int n>
+RDDL_INLINE Lanes<std::int64_t, n> joined_in_lanes(const Mask<n>* masks) {
+    Lanes<std::int64_t, n> bits{std::int64_t{0}};
+    for (int i = 0; i < count; ++i)
+        for (int p = 0; p < bits.part_count; ++p) {
+            const auto chosen = static_cast<simd::MaskBits>(masks[i].bits >> (p * simd::lanes) &
+                                                            simd::all_lanes_of<std::int64_t>);
+            const simd::Ints zero{}, one = zero + (std::int64_t{1} << i);
+            bits.part[p] |= simd::blend(chosen, one, zero);
+        }
+    return bits;
+}
+
 // The bits that `count` <= 64 masks have in each lane, that of the first one lowest.
 template <int count, int n>
 Lanes<std::int64_t, n> bits_in_lanes(const Mask<n>* masks) {
+    if constexpr (count <= most_joined && n <= 16) return joined_in_lanes<count>(masks);
     Lanes<std::uint64_t, n> bits;
     constexpr int parts = 8 / bits.part_width;
     for (int i = 0; i < n / 8; ++i) {

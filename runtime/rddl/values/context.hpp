@@ -32,6 +32,13 @@ struct LonePlace : Place {
     using Place::Place;
 };
 
+// The place of one of `count` draws that a loop makes: its neighbours' numbers are most likely
+// wanted as well.
+template <Index count>
+struct PlaceAmong : Place {
+    using Place::Place;
+};
+
 // The key of an episode's random stream (random.hpp).
 struct StreamKey {
     std::uint32_t low = 0;
@@ -145,8 +152,13 @@ struct Context<Pack<n, R>> {
         std::uint32_t series = no_series;
         std::uint32_t first, count;
         Lanes<R, n> numbers[most_numbers];
+
+        RDDL_INLINE bool has(Place place) const {
+            return series == place.series && place.index - first < count;
+        }
     };
     std::array<Recent, recent_series> recent;
+    std::array<Recent, recent_series> recent_normals;  // standard ones
 
     // The schedule of all draws of the step, where registers have room for that of all lanes; the
     // first draw makes it.

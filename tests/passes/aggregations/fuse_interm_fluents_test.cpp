@@ -47,6 +47,18 @@ TEST(FuseIntermFluents, RepeatsOnlyWhatIsCheap) {
     EXPECT_NE(step.find("next.v[o] = state.y * scratch.long"), std::string::npos) << step;
 }
 
+// share_subexpressions gives it a name there.
+TEST(FuseIntermFluents, RepeatsWhatOneDefinitionReadsByTheSameIndices) {
+    const std::string step =
+        fused("t(obj) : { interm-fluent, real }; u(obj) : { interm-fluent, real };",
+              "t(?o) = exp[v(?o)]; u(?o) = exp[v(?o) + 1]; x' = sum_{?o : obj} u(?o);"
+              "v'(?o) = t(?o) * t(?o) + u(?o) * u(?o);");
+    EXPECT_NE(
+        step.find("next.v[o] = exp(state.v[o]) * exp(state.v[o]) + scratch.u[o] * scratch.u[o]"),
+        std::string::npos)
+        << step;
+}
+
 TEST(FuseIntermFluents, LeavesWhatALoopWouldRepeat) {
     const std::string step =
         fused("s : { interm-fluent, real };",

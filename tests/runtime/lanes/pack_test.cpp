@@ -133,6 +133,51 @@ TEST(Packs, FindNormalQuantilesAsScalarsDo) {
             probabilities.insert(probabilities.end(), pack.begin(), pack.end());
         }
     EXPECT_BITS_OF_SCALARS(normal_quantile(x...), probabilities);
+
+    // Several packs whose lanes share registers.
+    using Packed = Lanes<double, width>;
+    const std::size_t packs = probabilities.size() / width;
+    for (std::size_t first = 0; first < packs; ++first)
+        for (std::uint32_t count = 1; count <= std::min<std::size_t>(4, packs - first); ++count) {
+            const double* const p = probabilities.data() + first * width;
+            std::array<Packed, 4> several;
+            for (std::uint32_t i = 0; i < count; ++i) several[i] = Packed::load(p + i * width);
+            replace_by_normal_quantiles<4>(several.data(), count);
+            for (std::uint32_t i = 0; i < count * width; ++i)
+                ASSERT_EQ(several[i / width][static_cast<int>(i % width)], normal_quantile(p[i]));
+        }
+}
+
+// A loop's normals in packs are those that each would be alone, in whichever order they are drawn.
+TEST(Packs, DrawNormalsOfNeighboursTogether) {
+    const auto context = [] {
+        std::array<std::uint64_t, width> low, high;
+        for (std::size_t lane = 0; lane < width; ++lane) {
+            const StreamKey key = lane == 3 ? median_key : stream_key(5, lane, 0);
+            low[lane] = key.low;
+            high[lane] = key.high;
+        }
+        using Word = Pack<width>::Word;
+        return Context<Pack<width>>::of(Word::load(low.data()), Word::load(high.data()),
+                                        Word{std::uint64_t{3}}, true);
+    };
+    const auto expect_same = [&]<Index count>() {
+        for (const Index first : {0, 1, 3, 4}) {
+            auto together = context(), alone = context();
+            for (Index i = first; i < first + count; ++i)
+                for (const std::uint32_t series : {2, 6, 3}) {
+                    const Place place(0, i % count, series);
+                    const auto drawn =
+                        sample::normal(together, PlaceAmong<count>(0, i % count, series), 2.0, 3.0);
+                    const auto expected = sample::normal(alone, place, 2.0, 3.0);
+                    for (int lane = 0; lane < width; ++lane)
+                        ASSERT_EQ(drawn[lane], expected[lane]) << count << ": " << i % count;
+                }
+        }
+    };
+    expect_same.operator()<2>();
+    expect_same.operator()<3>();
+    expect_same.operator()<9>();
 }
 
 TEST(Packs, ComputeWithIntsAsScalarsDo) {

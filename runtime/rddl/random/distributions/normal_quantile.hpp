@@ -8,6 +8,7 @@
 #include <rddl/values/pack_ops.hpp>
 
 #include <bit>
+#include <cstdint>
 
 namespace rddl {
 
@@ -81,7 +82,8 @@ RDDL_ALWAYS_INLINE Fraction<R> select_fraction(Mask mask, const Fraction<R>& a,
 // Farther from the median.
 template <class R>
 RDDL_ALWAYS_INLINE Fraction<R> normal_quantile_outside(R p, R q) {
-    const R r = sqrt(-ln(select(q < 0.0, p, 1.0 - p)));
+    // The logarithm of an ordinary number.
+    const R r = sqrt(-ln_of_positive(select(q < 0.0, p, 1.0 - p), R{0.0}));
     const auto far = r > 5.0;  // once in 4e10 draws
     Fraction<R> tail = normal_quantile_tail(r);
     if (any(far)) tail = select_fraction(far, normal_quantile_far_tail(r), tail);
@@ -135,6 +137,51 @@ requires(n > 8) Lanes<double, n> normal_quantile(const Lanes<double, n>& p) {
         for (int i = 0; i < parts; ++i) result.part[first + i] = some.part[i];
     }
     return result;
+}
+
+namespace detail {
+
+// The first `count` numbers, which are far from the median, in as many lanes at a time as pay.
+template <int lanes>
+RDDL_ALWAYS_INLINE void replace_by_tails(double* numbers) {
+    using Some = Lanes<double, lanes>;
+    const Some p = Some::load(numbers);
+    const Fraction<Some> tail = normal_quantile_outside(p, p - 0.5);
+    (tail.dividend / tail.divisor).store(numbers);
+}
+
+}  // namespace detail
+
+// Replaces packs of p in (0, 1), `most` at most. Their lanes that are far from the median share
+// registers, since the tail takes much longer than the centre.
+template <int most, int n>
+[[gnu::noinline]] void replace_by_normal_quantiles(Lanes<double, n>* packs, std::uint32_t count) {
+    constexpr int part_width = simd::lanes_of<double>;
+    double far[most * n + 16];
+    Mask<n> outside[most];
+    int far_count = 0;
+    for (std::uint32_t i = 0; i < count; ++i) {
+        const Lanes<double, n> q = packs[i] - 0.5;
+        outside[i] = !detail::is_central(q);
+        const detail::Fraction<Lanes<double, n>> centre = detail::normal_quantile_centre(q);
+        for (int p = 0; p < packs[i].part_count; ++p)
+            far_count += simd::store_chosen(
+                static_cast<simd::MaskBits>(outside[i].bits >> (p * part_width)) &
+                    simd::all_lanes_of<double>,
+                packs[i].part[p], far + far_count);
+        packs[i] = centre.dividend / centre.divisor;
+    }
+    Lanes<double, 16>(0.5).store(far + far_count);
+    int done = 0;
+    for (; far_count - done > 8; done += 16) detail::replace_by_tails<16>(far + done);
+    if (far_count > done) detail::replace_by_tails<8>(far + done);
+    const double* next = far;
+    for (std::uint32_t i = 0; i < count; ++i)
+        for (int p = 0; p < packs[i].part_count; ++p)
+            next +=
+                simd::load_chosen(static_cast<simd::MaskBits>(outside[i].bits >> (p * part_width)) &
+                                      simd::all_lanes_of<double>,
+                                  next, packs[i].part[p]);
 }
 
 // PPND7 of the same article; relative error about 1e-7.
