@@ -487,7 +487,8 @@ bool fills_tables(const Block& block) {
 
 bool calls_functions(const Block& block) {
     bool calls = false;
-    for_each_statement<Call>(block, [&](const Call&) { calls = true; });
+    for_each_statement<Call>(
+        block, [&](const Call& call) { calls |= !std::holds_alternative<Together>(call.callee); });
     return calls;
 }
 

@@ -98,7 +98,7 @@ void for_each_statement(const Block& block, const Visit& visit) {
 
 // Does it write to buffers?
 bool fills_tables(const Block& block);
-// Does it pass tables to functions? That takes room in Scratch.
+// Does it pass tables to functions of matrices, vectors or the user? That takes room in Scratch.
 bool calls_functions(const Block& block);
 
 // The operands that a call evaluates before it reads its tables.

@@ -41,6 +41,7 @@ bool is_external(const Callee& callee) {
 std::string name_of(const Program& program, const Callee& callee) {
     return match(
         callee, [&](ExternalId id) { return "$" + program[id].name; },
+        [](Together) { return std::string("together"); },
         [](auto which) { return std::string(rddlc::name_of(which)); });
 }
 
@@ -55,7 +56,7 @@ Extent extent_of(const Program& program, const Call& call) {
 
 bool overwrites_inputs(const Callee& callee) {
     return match(
-        callee, [](ExternalId) { return false; },
+        callee, [](ExternalId) { return false; }, [](Together) { return false; },
         [](auto which) { return signature_of(which).overwrites_inputs; });
 }
 

@@ -19,6 +19,8 @@ namespace {
 
 // One bit or two are 1.
 constexpr double union_cost = 4;
+// Sines and cosines of a register.
+constexpr double angles_at_once = 8, cost_of_angles = 2 * elementary_cost;
 // Packs turn the bits of lanes into masks.
 constexpr double spread_cost = 8;
 
@@ -131,11 +133,21 @@ class BlockCost {
     }
     // It reads its tables and fills its output.
     void add(const Call& call, Place place) {
+        if (std::holds_alternative<Together>(call.callee) && properties_.empty())
+            return add_together(call, place);
         for (const NodeId operand : operands_of(call)) add(operand, place);
         double elements = static_cast<double>(program_[call.output.buffer].count());
         for (const TableView& input : call.inputs)
             elements += static_cast<double>(program_[input.buffer].count());
         pay(1 + elements, place, &PackCost::numbers);
+    }
+
+    // One environment computes them in registers.
+    void add_together(const Call& call, Place place) {
+        const auto count = static_cast<double>(call.scalars.size());
+        for (const NodeId function : call.scalars)
+            for (const NodeId angle : operands_of(program_[function])) add(angle, place);
+        pay(std::ceil(count / angles_at_once) * cost_of_angles + count, place, &PackCost::numbers);
     }
 
     // Pays for the node where it is computed: in the innermost of the loops on which it depends.

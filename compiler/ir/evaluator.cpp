@@ -300,6 +300,14 @@ void Evaluator::call(ExternalId callee, const Call& form, Frame& frame) const {
     functions_[callee.index](arguments, static_cast<std::int32_t>(form.inputs.size()), &result);
 }
 
+void Evaluator::call(Together, const Call& form, Frame& frame) const {
+    std::byte* target = element(form.output.buffer, form.output.indices, frame);
+    for (const NodeId scalar : form.scalars) {
+        write(target, value<double>(scalar, frame));
+        target += size_of(Scalar::Real);
+    }
+}
+
 std::int64_t Evaluator::row_major(BufferId id, const std::vector<NodeId>& indices,
                                   Frame& frame) const {
     const Buffer& buffer = (*program_)[id];

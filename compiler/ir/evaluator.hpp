@@ -117,6 +117,7 @@ class Evaluator {
     template <class Callee>
     void call(Callee callee, const Call& call, Frame& frame) const;
     void call(ExternalId callee, const Call& call, Frame& frame) const;
+    void call(Together callee, const Call& call, Frame& frame) const;
 
     template <class T>
     T apply(const Apply& form, Frame& frame) const;

@@ -295,6 +295,11 @@ struct Affected {
     BufferId few;            // a table of bools, as many as the loop has objects
     BufferId rows, objects;  // constant ints: element i is read by objects[rows[i]], ...
 };
+// The objects of a loop over bools whose element of one table is false keep that of another table.
+struct Chosen {
+    BufferId few;   // bools of the action, as many as the loop has objects
+    BufferId kept;  // bools of the state, of the same shape
+};
 struct Loop {
     VariableId variable;
     Block body;
@@ -306,6 +311,9 @@ struct Loop {
     bool as_words = false;
     // Then: one environment computes those alone (passes/lanes/visit_affected.hpp).
     std::optional<Affected> affected = {};
+    // Its values are no words: one environment computes those that are chosen alone
+    // (passes/lanes/visit_chosen.hpp).
+    std::optional<Chosen> chosen = {};
 };
 // An element that gets a value where a condition is true; else it stays as it is.
 struct Mark {
@@ -332,7 +340,10 @@ struct TableView {
     BufferId buffer;
     std::vector<NodeId> indices;
 };
-using Callee = std::variant<MatrixOperator, VectorDistribution, ExternalId>;
+// Fills a vector with the scalars, which are sines and cosines: one environment has them in the
+// lanes of a register (passes/lanes/group_angles.hpp).
+struct Together {};
+using Callee = std::variant<MatrixOperator, VectorDistribution, ExternalId, Together>;
 // A function of whole tables. call.hpp says what each one expects, and which ones use their inputs
 // as room to work in. A matrix without a result gives nan, which Operator::Defined finds. An
 // external function takes any tables, also single elements, and is pure: it neither draws nor

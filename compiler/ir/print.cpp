@@ -261,7 +261,12 @@ class Printer {
                                                        : "";
         const std::string affected =
             loop.affected ? ", affected by " + element(loop.affected->few, {}) : "";
-        writer_.line(fmt::format("for {}{}{}", binding(loop.variable), how, affected)).indent();
+        const std::string chosen =
+            loop.chosen ? fmt::format(", chosen by {}, others {}", element(loop.chosen->few, {}),
+                                      element(loop.chosen->kept, {}))
+                        : "";
+        writer_.line(fmt::format("for {}{}{}{}", binding(loop.variable), how, affected, chosen))
+            .indent();
         block(loop.body);
         writer_.dedent();
     }

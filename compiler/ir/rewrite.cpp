@@ -26,10 +26,15 @@ void change_tables(Block& block, const std::function<void(BufferId&)>& change) {
             [&](Spread& spread) { change(spread.target); },
             [&](Loop& loop) {
                 change_tables(loop.body, change);
-                if (!loop.affected) return;
-                change(loop.affected->few);
-                change(loop.affected->rows);
-                change(loop.affected->objects);
+                if (loop.affected) {
+                    change(loop.affected->few);
+                    change(loop.affected->rows);
+                    change(loop.affected->objects);
+                }
+                if (loop.chosen) {
+                    change(loop.chosen->few);
+                    change(loop.chosen->kept);
+                }
             },
             [&](Visit& visit) {
                 for (Mark& mark : visit.marks) change(mark.target);

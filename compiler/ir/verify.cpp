@@ -587,6 +587,15 @@ class Verifier {
                         program_[form.affected->objects].storage == Storage::Constant,
                     "'{}' does not say which objects '{}' affects", rows.name, few.name);
         }
+        if (form.chosen) {
+            const Buffer& few = program_[form.chosen->few];
+            const Buffer& kept = program_[form.chosen->kept];
+            require(few.storage == Storage::Action && few.scalar == Scalar::Bool &&
+                        kept.storage == Storage::State && kept.scalar == Scalar::Bool &&
+                        kept.shape == few.shape,
+                    "'{}' does not say which objects keep their elements of '{}'", few.name,
+                    kept.name);
+        }
         for (const Statement& each : form.body) statement(each, scope, readable);
     }
 
@@ -636,6 +645,10 @@ class Verifier {
                 require(form.scalars.empty(), "the scalars of '{}' do not fit", name);
                 return 0;
             },
+            [&](Together) -> std::size_t {
+                require(are_together(form), "the scalars of '{}' do not fit", name);
+                return 0;
+            },
             [&](auto callee) {
                 const CallSignature signature = signature_of(callee);
                 require(tables_fit(form, signature), "the tables of '{}' do not fit", name);
@@ -655,6 +668,19 @@ class Verifier {
         for (std::size_t i = 0; i + room < form.inputs.size(); ++i) {
             readable_now(form.inputs[i].buffer, readable);
         }
+    }
+
+    // Sines and cosines, as many as the vector has elements.
+    bool are_together(const Call& form) const {
+        const auto is_function = [&](NodeId id) {
+            const auto* apply = std::get_if<Apply>(&program_[id].form);
+            return apply && (apply->op == Operator::Sin || apply->op == Operator::Cos);
+        };
+        const Buffer& output = program_[form.output.buffer];
+        return form.inputs.empty() && form.output.indices.empty() &&
+               output.scalar == Scalar::Real &&
+               output.shape == std::vector<std::int64_t>{std::ssize(form.scalars)} &&
+               std::ranges::all_of(form.scalars, is_function);
     }
 
     // Every table has indices for some of its dimensions.

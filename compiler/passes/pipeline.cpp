@@ -29,6 +29,7 @@
 #include "passes/constants/tabulate_constants.hpp"
 #include "passes/lanes/choose_evaluation.hpp"
 #include "passes/lanes/evaluate_together.hpp"
+#include "passes/lanes/group_angles.hpp"
 #include "passes/lanes/read_places.hpp"
 #include "passes/lanes/separate_aggregations.hpp"
 #include "passes/lanes/separate_counts.hpp"
@@ -36,6 +37,7 @@
 #include "passes/lanes/test_equalities_first.hpp"
 #include "passes/lanes/unroll_rows.hpp"
 #include "passes/lanes/visit_affected.hpp"
+#include "passes/lanes/visit_chosen.hpp"
 #include "passes/sharing/remove_unused_buffers.hpp"
 #include "passes/sharing/share_across_definitions.hpp"
 #include "passes/sharing/share_subexpressions.hpp"
@@ -274,6 +276,12 @@ constexpr Pass in_order[] = {
      "what has to hold beside an equality of reals is evaluated where the equality holds",
      {"compare_magnitudes", "separate_aggregations"},
      "conditions have their final form"},
+    {"group_angles",
+     Phase::Lanes,
+     group_angles,
+     "sines and cosines of a step are computed together",
+     {"share_across_definitions", "test_equalities_first"},
+     "the values that every step needs, and those that are shared, are known"},
     {"remove_unused_buffers",
      Phase::Sharing,
      remove_unused_buffers,
@@ -305,6 +313,12 @@ constexpr Pass in_order[] = {
      "loops of draws know which objects a table of few true bools can make true",
      {"evaluate_together"},
      "it says which loops run over words of bools"},
+    {"visit_chosen",
+     Phase::Lanes,
+     visit_chosen,
+     "loops of draws know which objects an action leaves as they are",
+     {"evaluate_together"},
+     "it says which loops run over several objects, and not over words"},
     {"choose_evaluation",
      Phase::Lanes,
      choose_evaluation,

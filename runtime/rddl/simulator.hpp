@@ -5,9 +5,11 @@
 #include <rddl/interface/simulator_table.hpp>
 #include <rddl/interface/sites.hpp>
 #include <rddl/lanes/lane.hpp>
+#include <rddl/object_lanes/angles.hpp>
+#include <rddl/object_lanes/chosen_objects.hpp>
+#include <rddl/object_lanes/many_objects.hpp>
 #include <rddl/object_lanes/objects.hpp>
 #include <rddl/object_lanes/rows.hpp>
-#include <rddl/object_lanes/many_objects.hpp>
 #include <rddl/random/distributions.hpp>
 #include <rddl/simulator.h>
 #include <rddl/step/compiled.hpp>

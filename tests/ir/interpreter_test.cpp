@@ -218,6 +218,25 @@ std::int32_t third_of(const rddl_array* arguments, std::int32_t count, const rdd
     return 1;
 }
 
+TEST_F(InterpreterTest, FillsAVectorWithSinesAndCosines) {
+    const BufferId angles = w.add("angles", Storage::Scratch, Scalar::Real, false, {});
+    w.program.buffers[angles.index].shape = {2};
+    const auto element = [&](std::int64_t k) {
+        return w.builder().load(angles, {w.integer(k)});
+    };
+    const NodeId level = w.load(w.level);
+    Definition definition =
+        w.assign(w.next_level, w.apply(Operator::Subtract, element(0), element(1)));
+    const Call call{Together{},
+                    {},
+                    {w.apply(Operator::Sin, level), w.apply(Operator::Cos, level)},
+                    {angles, {}},
+                    {}};
+    definition.body.insert(definition.body.begin(), Statement{call});
+    EXPECT_EQ(step_with(definition).level, rddl::sin(2.0) - rddl::cos(2.0));
+    for (const std::string& complaint : verify(w.program)) ADD_FAILURE() << complaint;
+}
+
 TEST_F(InterpreterTest, CallsExternalFunctions) {
     add_step(w);
     w.program.externals = {{"third", {}}};

@@ -376,6 +376,7 @@ Expression Expressions::view(const ir::TableView& view, bool is_written) {
 
 tree::Statement Expressions::lower(const ir::Call& call) {
     if (ir::is_external(call.callee)) return external_call(call);
+    if (std::holds_alternative<ir::Together>(call.callee)) return together(call);
     const ir::Extent extent = ir::extent_of(unit_.program, call);
     const bool overwrites = ir::overwrites_inputs(call.callee);
     tree::Expressions arguments = call.place ? place(*call.place) : tree::Expressions{};
@@ -383,6 +384,18 @@ tree::Statement Expressions::lower(const ir::Call& call) {
     append(arguments, all_of(call.scalars));
     for (const ir::TableView& input : call.inputs) arguments.push_back(view(input, overwrites));
     arguments.push_back(view(call.output, true));
+    return {tree::call(function_of(unit_.program, call.callee), std::move(arguments))};
+}
+
+// rddl::evaluate_together(scratch.angles, rddl::cosine_of(state.a), rddl::sine_of(state.b));
+tree::Statement Expressions::together(const ir::Call& call) {
+    tree::Expressions arguments = tree::list(view(call.output, true));
+    for (const ir::NodeId id : call.scalars) {
+        const auto& function = std::get<ir::Apply>(unit_.program[id].form);
+        arguments.push_back(
+            tree::call(function.op == Operator::Sin ? "rddl::sine_of" : "rddl::cosine_of",
+                       all_of(function.operands)));
+    }
     return {tree::call(function_of(unit_.program, call.callee), std::move(arguments))};
 }
 

@@ -159,6 +159,7 @@ class Expressions {
     tree::Expression elements(tree::Expression table, std::span<const ir::NodeId> indices);
     tree::Expression view(const ir::TableView& view, bool is_written);
     tree::Statement external_call(const ir::Call& call);
+    tree::Statement together(const ir::Call& call);
     tree::Expression index(ir::NodeId id);
     bool is_plain_index(ir::NodeId id) const;
 

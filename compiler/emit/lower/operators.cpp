@@ -126,7 +126,8 @@ std::string function_of(const ir::Program& program, const ir::Callee& callee) {
         [](VectorDistribution distribution) {
             return "rddl::sample::" + snake_case(name_of(distribution));
         },
-        [&](ir::ExternalId id) { return "rddl_extern::" + external_identifier(program[id].name); });
+        [&](ir::ExternalId id) { return "rddl_extern::" + external_identifier(program[id].name); },
+        [](ir::Together) { return std::string("rddl::evaluate_together"); });
 }
 
 }  // namespace rddlc::cpp

@@ -145,6 +145,8 @@ void FunctionBody::statement(const ir::Loop& loop) {
 // rddl::for_each_object<computer_count>(context, [&](auto& several, auto x) { ... });
 // rddl::for_affected_objects<cell_count>(context, state.at, at_affects_rows_, at_affects_, next.at,
 //                                        [&](auto& several, auto c) { ... });
+// rddl::for_chosen_objects<course_count>(context, action.take, state.passed, next.passed,
+//                                        [&](auto& several, auto c) { ... });
 // rddl::for_many_objects<cell_count>(context, [&](auto& several, auto c) { ... });
 void FunctionBody::over_several_objects(const ir::Loop& loop) {
     const auto before = expressions_.mark();
@@ -167,6 +169,12 @@ void FunctionBody::over_several_objects(const ir::Loop& loop) {
             {tree::call("rddl::for_affected_objects<" + count + ">",
                         tree::list(tree::word("context"), expressions_.record(few),
                                    expressions_.record(rows), expressions_.record(affected),
+                                   expressions_.record(only_target(nest)), std::move(lambda)))});
+    } else if (loop.chosen) {
+        statements_.push_back(
+            {tree::call("rddl::for_chosen_objects<" + count + ">",
+                        tree::list(tree::word("context"), expressions_.record(loop.chosen->few),
+                                   expressions_.record(loop.chosen->kept),
                                    expressions_.record(only_target(nest)), std::move(lambda)))});
     } else {
         const std::string function =

@@ -23,18 +23,39 @@
 namespace rddl {
 namespace detail {
 
-// Bit for bit.
+// The differences of a row's elements from its line, in units of the last place, are parts of a
+// word: as many bits each as shifts need not multiply for.
+template <std::size_t cases>
+struct Differences {
+    static constexpr std::uint64_t bits = std::min<std::uint64_t>(std::bit_floor(64 / cases), 8);
+    static constexpr std::int64_t greatest = bits == 0 ? 0 : (std::int64_t{1} << (bits - 1)) - 1;
+};
 template <class R, std::size_t cases>
-constexpr bool is_line(const std::array<R, cases>& row) {
+constexpr std::int64_t difference_at(const std::array<R, cases>& row, std::size_t count) {
+    return static_cast<std::int64_t>(rddl::bits_of(row[count]) -
+                                     rddl::bits_of(line_of(row).at(count)));
+}
+template <class R, std::size_t cases>
+constexpr bool is_near_line(const std::array<R, cases>& row, std::int64_t greatest) {
     if (!are_moderate(row)) return false;
-    for (std::size_t count = 0; count < cases; ++count)
-        if (rddl::bits_of(line_of(row).at(count)) != rddl::bits_of(row[count])) return false;
+    for (std::size_t count = 0; count < cases; ++count) {
+        const std::int64_t difference = difference_at(row, count);
+        if (difference < -greatest || difference > greatest) return false;
+    }
     return true;
 }
 
+// Bit for bit.
 template <const auto& rows>
-inline constexpr bool are_lines = std::ranges::all_of(rows,
-                                                      [](const auto& row) { return is_line(row); });
+inline constexpr bool are_lines = std::ranges::all_of(rows, [](const auto& row) {
+    return is_near_line(row, 0);
+});
+template <const auto& rows>
+inline constexpr bool are_nearly_lines =
+    std::ranges::all_of(rows, []<class R, std::size_t cases>(const std::array<R, cases>& row) {
+        return std::same_as<R, double> && Differences<cases>::bits > 1 &&
+               is_near_line(row, Differences<cases>::greatest);
+    });
 
 // The number of each object's row.
 template <const auto& rows>
@@ -66,12 +87,55 @@ inline constexpr auto lines = [] {
     return all;
 }();
 
+// By object the differences of its elements, the first one in the highest bits.
+template <const auto& rows, const auto&... kinds>
+inline constexpr auto differences = [] {
+    constexpr auto numbers = row_numbers<rows, kinds...>();
+    std::array<std::int64_t, numbers.size()> all{};
+    for (std::size_t x = 0; x < numbers.size(); ++x) {
+        const auto& row = rows[static_cast<std::size_t>(numbers[x])];
+        constexpr std::uint64_t bits =
+            Differences<std::tuple_size_v<std::remove_cvref_t<decltype(row)>>>::bits;
+        std::uint64_t word = 0;
+        for (std::size_t count = 0; count < row.size(); ++count)
+            word |= static_cast<std::uint64_t>(difference_at(row, count)) << (64 - bits) >>
+                    bits * count;
+        all[x] = static_cast<std::int64_t>(word);
+    }
+    return all;
+}();
+
 template <class R, int n>
 RDDL_INLINE Lanes<R, n> reals(const Lanes<std::int64_t, n>& ints) {
     if constexpr (std::same_as<R, float>)
         return to_float(ints);
     else
         return to_real(ints);
+}
+
+// The element at `count` of each object's line.
+template <const auto& rows, const auto&... kinds, int n, class Count>
+RDDL_INLINE auto at_line(const SomeObjects<n>& x, const Count& count) {
+    constexpr const auto& of_objects = lines<rows, kinds...>;
+    using R = typename std::remove_cvref_t<decltype(of_objects.first)>::value_type;
+    const auto steps = reals<R>(Lanes<std::int64_t, n>(count));
+    const auto value = at(of_objects.first, x) + at(of_objects.rise, x) * steps;
+    // Takes the minimum as std::min does, for Line: without the care for nan that minimum has.
+    return Lanes<R, n>::each([](auto a, auto b) { return b < a ? b : a; }, value,
+                             at(of_objects.last, x));
+}
+template <const auto& rows, const auto&... kinds, int n, class Count>
+RDDL_INLINE auto at_near_line(const SomeObjects<n>& x, const Count& count) {
+    using Row = typename std::remove_cvref_t<decltype(rows)>::value_type;
+    constexpr int bits = Differences<std::tuple_size_v<Row>>::bits;
+    using Int = Lanes<std::int64_t, n>;
+    const Int difference = Int::each(
+        [](auto word, auto place) {
+            const auto first = (decltype(place))word << place * bits;
+            return (decltype(word))first >> (64 - bits);
+        },
+        at(differences<rows, kinds...>, x), words_of(Int(count)));
+    return real_of_bits(bits_of(at_line<rows, kinds...>(x, count)) + words_of(difference));
 }
 
 }  // namespace detail
@@ -87,19 +151,14 @@ RDDL_INLINE auto at_row(OneObject x, const Count& count) {
 }
 template <const auto& rows, const auto&... kinds, int n, class Count>
 RDDL_INLINE auto at_row(const SomeObjects<n>& x, const Count& count) {
-    if constexpr (detail::are_lines<rows>) {
-        constexpr const auto& lines = detail::lines<rows, kinds...>;
-        using R = typename std::remove_cvref_t<decltype(lines.first)>::value_type;
-        const auto steps = detail::reals<R>(Lanes<std::int64_t, n>(count));
-        const auto value = at(lines.first, x) + at(lines.rise, x) * steps;
-        // Takes the minimum as std::min does, for Line: without the care for nan that minimum has.
-        return Lanes<R, n>::each([](auto a, auto b) { return b < a ? b : a; }, value,
-                                 at(lines.last, x));
-    } else if constexpr (sizeof...(kinds) == 0) {
+    if constexpr (detail::are_lines<rows>)
+        return detail::at_line<rows, kinds...>(x, count);
+    else if constexpr (detail::are_nearly_lines<rows>)
+        return detail::at_near_line<rows, kinds...>(x, count);
+    else if constexpr (sizeof...(kinds) == 0)
         return at(rows, x, count);
-    } else {
+    else
         return at_own(rows, x, at(kinds, x)..., count);
-    }
 }
 
 }  // namespace rddl

@@ -215,8 +215,9 @@ using InRecord = std::conditional_t<std::is_same_v<T, float>, double, T>;
 constexpr std::byte bool_of(std::byte byte) {
     return std::byte{byte != std::byte{0}};
 }
-// The bits that any of these bytes has, in one of the bytes of the result.
-RDDL_INLINE std::uint64_t all_bytes(const std::byte* bytes, std::int64_t count) {
+// Whether each of these bytes is 0 or 1.
+RDDL_INLINE bool are_plain(const std::byte* bytes, std::int64_t count) {
+    constexpr std::uint64_t others = 0xFEFEFEFEFEFEFEFE;
     std::uint64_t all = 0;
     std::int64_t k = 0;
     simd::Words some{};
@@ -226,6 +227,14 @@ RDDL_INLINE std::uint64_t all_bytes(const std::byte* bytes, std::int64_t count) 
         __builtin_memcpy(&chunk, bytes + k, sizeof chunk);
         some |= chunk;
     }
+#ifdef RDDL_SIMD_AVX512
+    if (count >= 8) {
+        if (k < count)
+            some |= (simd::Words)_mm512_maskz_loadu_epi8(~std::uint64_t{0} >> (size - (count - k)),
+                                                         bytes + k);
+        return _mm512_test_epi8_mask((__m512i)some, _mm512_set1_epi64(others)) == 0;
+    }
+#endif
     for (int i = 0; k > 0 && i < simd::lanes; ++i) all |= some[i];
     for (; k + 8 <= count; k += 8) {
         std::uint64_t chunk;
@@ -233,7 +242,7 @@ RDDL_INLINE std::uint64_t all_bytes(const std::byte* bytes, std::int64_t count) 
         all |= chunk;
     }
     for (; k < count; ++k) all |= std::to_integer<std::uint64_t>(bytes[k]);
-    return all;
+    return (all & others) == 0;
 }
 
 // One number of each of the first `present` rows.
@@ -338,11 +347,12 @@ inline void write_flags(bool value, std::uint8_t* flags, int) {
 template <class List>
 RDDL_INLINE bool has_plain_bools(const ColumnTable<List>& columns, const std::byte* row) {
     if (!columns.has_bools) return true;
-    std::uint64_t bytes = 0;
+    bool are_plain = true;
     for_each_column(columns, [&](const Column& column) RDDL_INLINE_LAMBDA {
-        if (column.scalar == RDDL_BOOL) bytes |= detail::all_bytes(row + column.row, column.count);
+        if (column.scalar == RDDL_BOOL)
+            are_plain &= detail::are_plain(row + column.row, column.count);
     });
-    return (bytes & 0xFEFEFEFEFEFEFEFE) == 0;
+    return are_plain;
 }
 
 // Reads the first `present` lanes; the others become zero.

@@ -63,17 +63,6 @@ auto bits(const Table& table) {
     return detail::bits_of<static_cast<int>(count), just_stored>(detail::first_element(table) +
                                                                  first);
 }
-// All elements of a table of one environment, 64 in each word.
-template <class Table>
-RDDL_INLINE auto words_of(const Table& table) {
-    constexpr std::size_t count =
-        (static_cast<std::size_t>(detail::element_count<Table>) + 63) / 64;
-    return [&table]<std::size_t... word>(std::index_sequence<word...>) RDDL_INLINE_LAMBDA {
-        return std::array<std::uint64_t, count>{
-            static_cast<std::uint64_t>(bits<Index{64 * word}>(table))...};
-    }
-    (std::make_index_sequence<count>());
-}
 // Whether one element at least is true in a table of one environment.
 template <class Table>
 RDDL_INLINE bool is_any_true(const Table& table) {
@@ -84,6 +73,30 @@ RDDL_INLINE bool is_any_true(const Table& table) {
 template <Index first = 0, class Table>
 auto action_bits(const Table& table) {
     return bits<first, false>(table);
+}
+
+namespace detail {
+
+template <bool just_stored, class Table>
+RDDL_INLINE auto words(const Table& table) {
+    constexpr std::size_t count = (static_cast<std::size_t>(element_count<Table>) + 63) / 64;
+    return [&table]<std::size_t... word>(std::index_sequence<word...>) RDDL_INLINE_LAMBDA {
+        return std::array<std::uint64_t, count>{
+            static_cast<std::uint64_t>(bits<Index{64 * word}, just_stored>(table))...};
+    }
+    (std::make_index_sequence<count>());
+}
+
+}  // namespace detail
+
+// All elements of a table of one environment, 64 in each word; and those of the caller's action.
+template <class Table>
+RDDL_INLINE auto words_of(const Table& table) {
+    return detail::words<true>(table);
+}
+template <class Table>
+RDDL_INLINE auto action_words_of(const Table& table) {
+    return detail::words<false>(table);
 }
 
 // The element of a table of bools that has this place in row-major order.

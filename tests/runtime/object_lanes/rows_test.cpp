@@ -21,7 +21,12 @@ using Rows = std::array<std::array<R, cases>, 3>;
 
 constexpr Rows<double> lines = {{{0.25, 0.5, 0.75, 1}, {0.1, 0.4, 0.4, 0.4}, {-2, -2, -2, -2}}};
 constexpr Rows<double> curves = {{{0, 1, 4, 9}, {1, 0.5, 0.25, 0.125}, {-2, -2, -2, -2}}};
-constexpr Rows<double> nearly_lines = {{{0.1, 0.2, 0.3, 0.4}, {0, 1, 2, 3}, {0, 1, 2, 3}}};
+// Rounding puts some of these elements above and some below the line, also beyond zero.
+constexpr Rows<double> nearly_lines = {
+    {{0.1, 0.2, 0.3, 0.4}, {-0.4, -0.3, -0.2, -0.1}, {0.55, 0.65, 0.75, 0.8500000000000001}}};
+// One element is too far from its line, and one has another sign.
+constexpr Rows<double> hardly_lines = {{{0.1, 0.2, 0.3000000000001, 0.4}, {0, 1, 2, 3}, {}}};
+constexpr Rows<double> signs = {{{0, 0, -0.0, 0}, {0, 1, 2, 3}, {0, 1, 2, 3}}};
 // Differences of these overflow, or are nan.
 constexpr double greatest = std::numeric_limits<double>::max();
 constexpr double infinite = std::numeric_limits<double>::infinity();
@@ -30,8 +35,20 @@ constexpr Rows<double> extreme = {{{-greatest, greatest, greatest, greatest},
                                    {1, greatest, infinite, infinite}}};
 constexpr Rows<float> float_lines = {{{0.25, 0.5, 0.75, 1}, {0.5, 2, 2, 2}, {0, 0, 0, 0}}};
 static_assert(detail::are_lines<lines> && detail::are_lines<float_lines>);
-static_assert(!detail::are_lines<curves> && !detail::are_lines<nearly_lines> &&
-              !detail::are_lines<extreme>);
+static_assert(!detail::are_lines<nearly_lines> && detail::are_nearly_lines<nearly_lines>);
+static_assert(!detail::are_nearly_lines<curves> && !detail::are_nearly_lines<extreme> &&
+              !detail::are_nearly_lines<hardly_lines> && !detail::are_nearly_lines<signs>);
+
+// As many elements as a word can have differences of, and more.
+template <std::size_t size>
+constexpr auto thirds = [] {
+    std::array<std::array<double, size>, 1> rows{};
+    for (std::size_t count = 0; count < size; ++count)
+        rows[0][count] = static_cast<double>(count + 1) / 3;
+    return rows;
+}();
+static_assert(!detail::are_lines<thirds<32>> && detail::are_nearly_lines<thirds<8>> &&
+              detail::Differences<32>::bits == 2 && !detail::are_nearly_lines<thirds<33>>);
 
 constexpr auto kinds = [] {
     std::array<std::array<std::int64_t, width>, height> table{};
@@ -39,6 +56,8 @@ constexpr auto kinds = [] {
         table[x / width][x % width] = static_cast<std::int64_t>((5 * x + 2) % 3);
     return table;
 }();
+
+constexpr std::array<std::array<std::int64_t, width>, height> zeros{};
 
 template <class R>
 constexpr auto rows_of_objects = [] {
@@ -83,6 +102,8 @@ TEST(Rows, AreThoseOfKinds) {
     expect_rows_of_kinds<lines, double>();
     expect_rows_of_kinds<curves, double>();
     expect_rows_of_kinds<nearly_lines, double>();
+    expect_rows_of_kinds<hardly_lines, double>();
+    expect_rows_of_kinds<signs, double>();
     expect_rows_of_kinds<extreme, double>();
     expect_rows_of_kinds<float_lines, float>();
 }
@@ -92,6 +113,22 @@ TEST(Rows, AreThoseOfObjects) {
         taken<double>([](auto x, const auto& count) { return at_row<rows>(x, count); });
     for (std::size_t x = 0; x < objects; ++x)
         EXPECT_EQ(values[x], rows[x][static_cast<std::size_t>(some_counts()[x])]);
+}
+
+template <std::size_t size>
+void expect_thirds() {
+    for (std::size_t count = 0; count < size; ++count) {
+        const auto values = taken<double>([&](auto x, const auto&) {
+            return at_row<thirds<size>, zeros>(x, static_cast<std::int64_t>(count));
+        });
+        EXPECT_EQ(values[objects - 1], thirds<size>[0][count]);
+    }
+}
+TEST(Rows, HaveAsManyElementsAsAWordHasDifferences) {
+    expect_thirds<8>();
+    expect_thirds<20>();
+    expect_thirds<32>();
+    expect_thirds<33>();
 }
 
 TEST(Rows, TakeOneCountForAll) {

@@ -1,0 +1,123 @@
+#include "passes/lanes/visit_chosen.hpp"
+
+#include "ir/builder.hpp"
+#include "ir/nest.hpp"
+#include "ir/rewrite.hpp"
+#include "passes/analyses/bool_words.hpp"
+
+#include <algorithm>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <set>
+#include <utility>
+#include <variant>
+
+namespace rddlc::passes {
+namespace {
+
+// One object takes about as long as that many in registers. The runtime computes all objects if
+// more than one of so many is chosen.
+constexpr std::int64_t least_per_chosen = 8;
+
+class Choosing {
+  public:
+    Choosing(ir::Program program, Report& report)
+        : program_(std::move(program)), report_(report), builder_(program_) {}
+
+    ir::Program run() && {
+        for (ir::Definition& definition : program_.step)
+            for (ir::Statement& statement : definition.body)
+                if (auto* loop = std::get_if<ir::Loop>(&statement.form)) change(*loop);
+        return ir::collect_garbage(std::move(program_));
+    }
+
+  private:
+    void change(ir::Loop& loop) {
+        const ir::Nest nest = ir::nest_of(loop);
+        const auto* store = ir::only_statement<ir::Store>(*nest.body);
+        // Loops over words compute all objects in few instructions.
+        const bool may_be = loop.several_at_once && !loop.as_words && !loop.chosen && store &&
+                            program_[store->target].scalar == ir::Scalar::Bool &&
+                            are_many(program_, nest) && draws_bernoulli_alone(store->value);
+        if (!may_be || !is_own(store->indices, nest)) return;
+        std::set<ir::BufferId> choices;
+        collect_choices(store->value, nest, choices);
+        for (const ir::BufferId few : choices) {
+            const auto others = kept_without(few, store->value, nest);
+            if (!others) continue;
+            loop.chosen = ir::Chosen{few, *others};
+            ++report_["loops over the objects that an action chooses"];
+            return;
+        }
+    }
+
+    // Draws of one object alone exist of this distribution.
+    bool draws_bernoulli_alone(ir::NodeId id) {
+        if (!builder_.properties(id).random) return false;
+        bool others = false;
+        const auto look = [&](const auto& self, ir::NodeId at) -> void {
+            const ir::Node& node = program_[at];
+            const auto* sample = std::get_if<ir::Sample>(&node.form);
+            others |= std::holds_alternative<ir::Reduce>(node.form) ||
+                      std::holds_alternative<ir::Interval>(node.form) ||
+                      (sample && sample->distribution != Distribution::Bernoulli);
+            for (const ir::NodeId operand : ir::operands_of(node)) self(self, operand);
+        };
+        look(look, id);
+        return !others;
+    }
+
+    // The element of the objects' own, in a table that has as many.
+    bool is_own(const std::vector<ir::NodeId>& indices, const ir::Nest& nest) const {
+        return indices.size() == nest.variables.size() && ir::begins_with(program_, indices, nest);
+    }
+
+    // Tables of the action of which few bools are true.
+    void collect_choices(ir::NodeId id, const ir::Nest& nest, std::set<ir::BufferId>& choices) {
+        const auto* load = std::get_if<ir::Load>(&program_[id].form);
+        if (load && is_own(load->indices, nest) && is_few(program_[load->buffer]))
+            choices.insert(load->buffer);
+        for (const ir::NodeId operand : ir::operands_of(program_[id]))
+            collect_choices(operand, nest, choices);
+    }
+    bool is_few(const ir::Buffer& buffer) const {
+        const auto is_false = [](const ir::Value& value) {
+            return value == ir::Value(false);
+        };
+        return buffer.storage == ir::Storage::Action && buffer.scalar == ir::Scalar::Bool &&
+               program_.max_nondef_actions &&
+               *program_.max_nondef_actions * least_per_chosen <= buffer.count() &&
+               buffer.values.all_of(is_false);
+    }
+
+    // The table whose elements objects keep that are not chosen.
+    std::optional<ir::BufferId> kept_without(ir::BufferId few, ir::NodeId value,
+                                             const ir::Nest& nest) {
+        std::map<ir::NodeId, ir::NodeId> known;
+        const ir::NodeId rest =
+            ir::replace_in(builder_, value, known, [&](ir::NodeId id) -> std::optional<ir::NodeId> {
+                const auto* load = std::get_if<ir::Load>(&program_[id].form);
+                if (!load || load->buffer != few || !is_own(load->indices, nest))
+                    return std::nullopt;
+                return builder_.constant(false);
+            });
+        const auto* kept = std::get_if<ir::Load>(&program_[rest].form);
+        if (!kept || program_[kept->buffer].storage != ir::Storage::State ||
+            !is_own(kept->indices, nest))
+            return std::nullopt;
+        return kept->buffer;
+    }
+
+    ir::Program program_;
+    Report& report_;
+    ir::Builder builder_;
+};
+
+}  // namespace
+
+ir::Program visit_chosen(ir::Program program, Report& report) {
+    return Choosing(std::move(program), report).run();
+}
+
+}  // namespace rddlc::passes

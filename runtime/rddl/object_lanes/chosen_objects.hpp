@@ -1,0 +1,111 @@
+// Loops over objects of which an action chooses few; the bools of the others stay as they are.
+//
+// Packs of environments take one object after the other, since each environment has its own choice.
+// One environment computes the bools of the chosen objects alone, unless many are chosen, and keeps
+// all bools as bits until they are stored: processors are slow to load in one piece what has just
+// been stored in several.
+#pragma once
+
+#include <rddl/object_lanes/objects.hpp>
+#include <rddl/random/random.hpp>
+#include <rddl/values/bits.hpp>
+#include <rddl/values/context.hpp>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+
+namespace rddl {
+
+// Named after the level of simd.hpp, as packs are.
+inline namespace RDDL_SIMD_LEVEL {
+
+// A lane type: the values of one object of few.
+template <class R>
+struct ChosenOf : ScalarOf<R> {};
+
+// An object whose bools are bits of words.
+struct ChosenObject : OneObject {
+    std::uint64_t* words;
+};
+// The place where its bool is stored.
+struct ChosenElement {
+    std::uint64_t* word;
+    int bit;
+    RDDL_INLINE void operator=(bool value) const {
+        *word = (*word & ~(std::uint64_t{1} << bit)) | std::uint64_t{value} << bit;
+    }
+};
+
+}  // namespace RDDL_SIMD_LEVEL
+
+template <class R>
+struct Context<ChosenOf<R>> {
+    Context<ScalarOf<R>>& environment;
+
+    RDDL_INLINE bool require(bool ok, FaultKind kind, Place place, double value) {
+        return environment.require(ok, kind, place, value);
+    }
+};
+
+// Numbers are not made for the neighbours.
+template <class R>
+RDDL_INLINE R uniform_at(Context<ChosenOf<R>>& context, Place place) {
+    return uniform_at(context.environment, LonePlace(place.site, place.index, place.series));
+}
+
+template <class R, class Then, class Else>
+RDDL_INLINE auto branch(Context<ChosenOf<R>>& context, bool condition, Then&& then_value,
+                        Else&& else_value) {
+    return branch(context.environment, condition, then_value, else_value);
+}
+
+template <class Table>
+RDDL_INLINE ChosenElement elements(Table&, const ChosenObject& object) {
+    return {object.words + object.place / 64, static_cast<int>(object.place % 64)};
+}
+
+namespace detail {
+
+// 64 elements at a time.
+template <class Table>
+RDDL_INLINE void store_words(const std::uint64_t* words, Table& table) {
+    constexpr int count = static_cast<int>(element_count<Table>);
+    [&]<int... word>(std::integer_sequence<int, word...>) RDDL_INLINE_LAMBDA {
+        (store_bits<(count - 64 * word < 64 ? count - 64 * word : 64)>(
+             static_cast<std::int64_t>(words[word]), first_element(table) + 64 * word),
+         ...);
+    }
+    (std::make_integer_sequence<int, (count + 63) / 64>());
+}
+
+}  // namespace detail
+
+// Calls body(context, object) for [0, count). An object whose bool in `choices`, a table of the
+// caller's action, is false gets its element of `kept` in `target`.
+template <Index count, int n, class R, class Choices, class Table, class Body>
+RDDL_INLINE void for_chosen_objects(Context<Pack<n, R>>& context, const Choices&, const Table&,
+                                    Table&, Body&& body) {
+    for_each_object(context, count, body);
+}
+template <Index count, class R, class Choices, class Table, class Body>
+RDDL_INLINE void for_chosen_objects(Context<ScalarOf<R>>& context, const Choices& choices,
+                                    const Table& kept, Table& target, Body&& body) {
+    constexpr int most_chosen = static_cast<int>(count / 8);
+    const auto chosen = action_words_of(choices);
+    int chosen_count = 0;
+    for (const std::uint64_t bits : chosen) chosen_count += __builtin_popcountll(bits);
+    if (chosen_count > most_chosen) return for_each_object(context, count, body);
+    auto words = words_of(kept);
+    Context<ChosenOf<R>> of_chosen{context};
+    Index first = 0;
+    for (std::uint64_t bits : chosen) {
+        for (; bits != 0; bits &= bits - 1)
+            body(of_chosen, ChosenObject{{first + __builtin_ctzll(bits)}, words.data()});
+        first += 64;
+    }
+    detail::store_words(words.data(), target);
+}
+
+}  // namespace rddl

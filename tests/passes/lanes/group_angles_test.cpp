@@ -1,0 +1,49 @@
+#include "passes/lanes/group_angles.hpp"
+
+#include "texts.hpp"
+
+namespace rddlc {
+namespace {
+
+ir::Program grounded_turns(const std::string& cpf_of_x, const std::string& reward) {
+    return grounded(
+        {.pvariables = "x : { state-fluent, real, default = 0.5 };\n"
+                       "y : { state-fluent, real, default = 0.25 };\n"
+                       "on : { state-fluent, bool, default = false };\n"
+                       "height(obj) : { state-fluent, real, default = 0.0 };\n"
+                       "turn : { action-fluent, real, default = 0.0 };",
+         .cpfs = "x' = " + cpf_of_x + "; y' = y; on' = on; height'(?o) = height(?o) + cos[x];",
+         .reward = reward});
+}
+
+TEST(GroupAngles, FillsAVectorWithThoseThatEveryStepNeeds) {
+    passes::Report report;
+    const ir::Program program =
+        valid(passes::group_angles(grounded_turns("x * sin[y]", "cos[x] - sin[y + turn]"), report));
+    const std::string text = step_text(program);
+    EXPECT_NE(text.find("fill scratch.angles = together(cos(state.x), sin(state.y), "
+                        "sin(state.y + action.turn))"),
+              std::string::npos)
+        << text;
+    EXPECT_NE(text.find("state.x * scratch.angles[1]"), std::string::npos) << text;
+    EXPECT_NE(text.find("state.height[o] + scratch.angles[0]"), std::string::npos) << text;
+    EXPECT_EQ(report["sines and cosines computed together"], 3);
+    EXPECT_EQ(ir::print(passes::group_angles(program, report)), ir::print(program));
+}
+
+TEST(GroupAngles, LeavesTooFewAngles) {
+    for (const auto& [cpf, reward] : {
+             std::pair{"x + sin[x]", "cos[x] - sin[y]"},             // two angles
+             std::pair{"if (on) then sin[y] else x", "cos[x + y]"},  // a branch has the third one
+             std::pair{"sin[y]", "sum_{?o : obj} cos[height(?o)]"},  // a loop has it
+             std::pair{"sin[y]", "cos[x']"},                         // it is known too late
+             std::pair{"sin[y]", "if (on | (cos[x + y] > 0)) then 1 else 0"},
+         }) {
+        passes::Report report;
+        const ir::Program program = grounded_turns(cpf, reward);
+        EXPECT_EQ(ir::print(passes::group_angles(program, report)), ir::print(program)) << reward;
+    }
+}
+
+}  // namespace
+}  // namespace rddlc
