@@ -177,27 +177,27 @@ TEST(ManyObjects, DrawWithChancesSomeOfWhichAreCertain) {
     expect_the_same_draws<Pack<16>, 73, 20>();
     expect_the_same_draws<Pack<64>, 40, 3>();
 }
+constexpr std::array<double, 3> three_chances = {0, 0.5, 1};
 TEST(ManyObjects, DrawForOneObjectWithChances) {
-    static constexpr std::array<double, 3> chance = {0, 0.5, 1};
     Context<Scalar> context = context_of_lanes<Scalar>();
     const auto drawn = [&](Index i) {
-        return sample::valid_bernoulli(context, {0, i}, chances<chance>(OneObject{i}));
+        return sample::valid_bernoulli(context, {0, i}, chances<three_chances>(OneObject{i}));
     };
     EXPECT_FALSE(drawn(0));
     EXPECT_EQ(drawn(1), sample::valid_bernoulli(context, {0, 1}, 0.5));
     EXPECT_TRUE(drawn(2));
 }
+constexpr std::array<double, 40> two_chances = [] {
+    std::array<double, 40> table{};
+    table[7] = 0.75;
+    table[30] = 0.5;
+    return table;
+}();
 TEST(ManyObjects, DrawMediansWithChances) {
-    static constexpr std::array<double, 40> chance = [] {
-        std::array<double, 40> table{};
-        table[7] = 0.75;
-        table[30] = 0.5;
-        return table;
-    }();
     Context<Scalar> context{median_key, 4, {}};
     std::array<bool, 40> drawn;
     for_many_objects<40>(context, [&](auto& several, auto x) {
-        elements(drawn, x) = sample::valid_bernoulli(several, {0, x}, chances<chance>(x));
+        elements(drawn, x) = sample::valid_bernoulli(several, {0, x}, chances<two_chances>(x));
     });
     for (std::size_t i = 0; i < 40; ++i) EXPECT_EQ(drawn[i], i == 7) << i;
 }
