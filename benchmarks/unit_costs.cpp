@@ -44,7 +44,7 @@ void report(const char* name, Operation operation) {
     std::printf("%-22s %6.2f ns\n", name, best / repetitions / packs / width * 1e9);
 }
 
-// Of draws, since each belongs to a step: `count` neighbours in each.
+// The same for draws, which belong to a step: `count` neighbours in each.
 template <class Draw>
 void report_draws(const char* name, Draw draw) {
     constexpr rddl::Index count = 8;

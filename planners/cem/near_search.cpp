@@ -10,7 +10,7 @@ namespace rddlc::planners {
 
 namespace {
 
-// What an action changes often pays in the step after it.
+// The effect of an action often pays in the step after it.
 constexpr std::int64_t near_horizon = 2;
 constexpr double usual_part = 0.25, many_actions = 4096;
 
@@ -75,7 +75,7 @@ void Cem::look_near(const DecisionPoint& point, BudgetMeter& meter) {
     solvers::read_action(space_, row_.data(), near_numbers_.data(), near_indices_.data());
 }
 
-// What is best for the next steps, and goes on as the best plan so far.
+// Begins with the best action for the next steps, and goes on as the best plan so far.
 void Cem::begin_near(const Memory& memory, Plan& plan) const {
     end_by_noop(plan, 0, memory.horizon);
     if (memory.kept_count > 0)

@@ -18,7 +18,7 @@ namespace {
 
 // A register takes about as long as two angles one after the other.
 constexpr std::size_t fewest_angles = 3;
-// Those of one call: more would not fit into registers.
+// The most angles of one call: more would not fit into registers.
 constexpr std::size_t most_together = 16;
 
 class Grouping {

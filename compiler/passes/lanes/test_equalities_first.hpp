@@ -1,7 +1,6 @@
-// What has to hold beside an equality of reals is evaluated where the equality holds, which is
-// hardly ever: in loops over several objects and in packs, where no lane needs it, it is skipped.
-// The heuristic is that of T. Ball and J. Larus, Branch Prediction for Free, PLDI 1993, section 4
-// (opcodes).
+// Other conditions of a conjunction wait for an equality of reals, which hardly ever holds: loops
+// over several objects and packs skip them where no lane needs them. The heuristic is that of T.
+// Ball and J. Larus, Branch Prediction for Free, PLDI 1993, section 4 (opcodes).
 //
 //     state.d == 0.0 && X[b] <= maximum(state.x, state.y) && X[b] >= minimum(state.x, state.y)
 //     =>  select mostly first(state.d != 0.0, false,

@@ -87,7 +87,7 @@ RDDL_INLINE void store_words(const std::uint64_t* words, Table& table) {
 template <Index count, int n, class R, class Choices, class Table, class Body>
 RDDL_INLINE void for_chosen_objects(Context<Pack<n, R>>& context, const Choices&, const Table&,
                                     Table&, Body&& body) {
-    for_each_object(context, count, body);
+    for_each_object<count>(context, body);
 }
 template <Index count, class R, class Choices, class Table, class Body>
 RDDL_INLINE void for_chosen_objects(Context<ScalarOf<R>>& context, const Choices& choices,
@@ -96,7 +96,7 @@ RDDL_INLINE void for_chosen_objects(Context<ScalarOf<R>>& context, const Choices
     const auto chosen = action_words_of(choices);
     int chosen_count = 0;
     for (const std::uint64_t bits : chosen) chosen_count += __builtin_popcountll(bits);
-    if (chosen_count > most_chosen) return for_each_object(context, count, body);
+    if (chosen_count > most_chosen) return for_each_object<count>(context, body);
     auto words = words_of(kept);
     Context<ChosenOf<R>> of_chosen{context};
     Index first = 0;

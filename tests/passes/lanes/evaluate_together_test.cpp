@@ -44,7 +44,7 @@ TEST(EvaluateTogether, KeepsBoolsAloneInRegisters) {
         EXPECT_EQ(loop_for(cpf), "for x in obj, as words") << cpf;
 }
 
-// `w(?y)` does not lie beside its neighbours for all pairs, but for those of one ?x.
+// `w(?y)` does not lie beside its neighbours for all pairs, only for those of one ?x.
 TEST(EvaluateTogether, TakesLoopsInsideOfOthers) {
     const auto loops = [](const std::string& cpf_of_on) {
         Problem problem = with_pairs(cpf_of_on);

@@ -12,7 +12,7 @@
 namespace rddl {
 namespace {
 
-// Every `every`-th object is chosen. Some probabilities are none.
+// Every `every`-th object is chosen. Some numbers are not probabilities.
 template <std::size_t n>
 void expect_the_chosen(std::size_t every, StreamKey key) {
     constexpr auto count = static_cast<Index>(n);
@@ -39,7 +39,7 @@ void expect_the_chosen(std::size_t every, StreamKey key) {
     } result;
     std::array<bool, n> expected{};
     Context<Scalar> context{key, 1, {}}, same_context = context;
-    for_each_object(context, count, body(expected));
+    for_each_object<count>(context, body(expected));
     for_chosen_objects<count>(same_context, choices, kept, result.bools, body(result.bools));
     EXPECT_EQ(result.bools, expected) << n << " " << every;
     EXPECT_TRUE(result.behind);
