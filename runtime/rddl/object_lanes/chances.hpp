@@ -180,6 +180,13 @@ RDDL_INLINE bool valid_bernoulli(Context<ScalarOf<R>>& context, Place place,
     if (some_are_certain && detail::is_certain(p.value)) return p.value > 0;
     return uniform_at(context, place) < p.value;
 }
+// Packs that take one object after the other.
+template <int n, class R, bool some_are_certain>
+RDDL_INLINE Mask<n> valid_bernoulli(Context<Pack<n, R>>& context, Place place,
+                                    Chance<R, some_are_certain> p) {
+    if (some_are_certain && detail::is_certain(p.value)) return p.value > 0;
+    return uniform_at(context, place) < Lanes<R, n>{p.value};
+}
 
 }  // namespace sample
 

@@ -176,6 +176,8 @@ TEST(ManyObjects, DrawWithChancesSomeOfWhichAreCertain) {
     expect_the_same_draws<ScalarOf<float>, 72, 20>();
     expect_the_same_draws<Pack<16>, 73, 20>();
     expect_the_same_draws<Pack<64>, 40, 3>();
+    expect_the_same_draws<Pack<16>, 5, 2>();
+    expect_the_same_draws<Pack<64, float>, 7, 3>();
 }
 constexpr std::array<double, 3> three_chances = {0, 0.5, 1};
 TEST(ManyObjects, DrawForOneObjectWithChances) {
