@@ -18,6 +18,9 @@ namespace {
 constexpr double cheap_to_repeat = 2;
 // A single value that takes more is worth a name. As is what share_subexpressions would name.
 constexpr double worth_a_definition = 6;
+// Passes walk through expressions as trees: each fluent of a chain that the next one reads twice
+// would double them.
+constexpr double most_with_a_name = 128;
 
 class Fusion {
   public:
@@ -62,8 +65,8 @@ class Fusion {
     static bool is_worth_it(const ir::Properties& properties, const Readers& readers,
                             const ir::Buffer& buffer) {
         // share_subexpressions gives a name to what one definition reads by the same indices.
-        const bool gets_a_name =
-            readers.definitions == 1 && readers.loads.size() == 1 && !readers.lazy;
+        const bool gets_a_name = readers.definitions == 1 && readers.loads.size() == 1 &&
+                                 !readers.lazy && properties.cost <= most_with_a_name;
         if (readers.places > 1 && !gets_a_name && properties.cost > cheap_to_repeat) return false;
         if (buffer.count() == 1 && properties.cost > worth_a_definition) return false;
         const double before =

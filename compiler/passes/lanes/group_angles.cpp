@@ -53,13 +53,12 @@ class Grouping {
     void collect(ir::NodeId id) {
         if (!seen_.insert(id).second) return;
         const ir::Node& node = program_[id];
-        if (is_function(node) && is_ready(id)) {
-            const ir::NodeId angle = std::get<ir::Apply>(node.form).operands.front();
+        const std::vector<ir::NodeId> operands = ir::operands_of(node);
+        if (is_function(node) && is_ready(id, operands.front())) {
             found_.push_back(id);
-            angles_.insert(angle);
+            angles_.insert(operands.front());
             return;
         }
-        const std::vector<ir::NodeId> operands = ir::operands_of(node);
         const std::size_t always = evaluates_first_alone(node) ? 1 : operands.size();
         for (std::size_t k = 0; k < always; ++k) collect(operands[k]);
     }
@@ -68,16 +67,16 @@ class Grouping {
         const auto* apply = std::get_if<ir::Apply>(&node.form);
         return apply && (apply->op == Operator::Sin || apply->op == Operator::Cos);
     }
-    bool is_ready(ir::NodeId id) {
+    bool is_ready(ir::NodeId id, ir::NodeId angle) {
         const ir::Properties& properties = builder_.properties(id);
         return properties.free_variables.empty() && !properties.random && !properties.may_fault &&
-               !properties.uniform && reads_records_alone(id);
+               !properties.uniform && reads_records_alone(angle);
     }
-    // The state, the action and constants.
+    // The state, the action and constants; no sine or cosine, which may be one of the same call.
     bool reads_records_alone(ir::NodeId id) const {
         const ir::Node& node = program_[id];
         const auto buffer = ir::buffer_read_by(node);
-        if (std::holds_alternative<ir::Local>(node.form) ||
+        if (is_function(node) || std::holds_alternative<ir::Local>(node.form) ||
             (buffer && !is_record(program_[*buffer].storage)))
             return false;
         return std::ranges::all_of(ir::operands_of(node), [&](ir::NodeId operand) {
@@ -101,6 +100,8 @@ class Grouping {
     // ---------------------------------------------------------------------------- replacing
 
     void replace() {
+        if (found_.size() % most_together < fewest_angles)
+            found_.resize(found_.size() - found_.size() % most_together);
         std::map<ir::NodeId, ir::NodeId> known;
         std::vector<ir::Definition> calls;
         for (std::size_t first = 0; first < found_.size(); first += most_together) {

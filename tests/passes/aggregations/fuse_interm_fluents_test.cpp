@@ -59,6 +59,20 @@ TEST(FuseIntermFluents, RepeatsWhatOneDefinitionReadsByTheSameIndices) {
         << step;
 }
 
+// Else the expression of a chain would double with each link.
+TEST(FuseIntermFluents, RepeatsNothingLong) {
+    std::string fluents, cpfs = "t0(?o) = v(?o);";
+    for (int i = 0; i < 60; ++i)
+        fluents += "t" + std::to_string(i) + "(obj) : { interm-fluent, real };";
+    for (int i = 1; i < 60; ++i) {
+        const std::string last = "t" + std::to_string(i - 1) + "(?o)";
+        cpfs += "t" + std::to_string(i) + "(?o) = " + last + " * (1.0 - " + last + ") * 3.7;";
+    }
+    const std::string step = fused(fluents, cpfs + "x' = 0.0; v'(?o) = t59(?o);");
+    EXPECT_NE(step.find("scratch.t50["), std::string::npos);
+    EXPECT_LT(step.size(), 60'000u);
+}
+
 TEST(FuseIntermFluents, LeavesWhatALoopWouldRepeat) {
     const std::string step =
         fused("s : { interm-fluent, real };",

@@ -31,6 +31,17 @@ TEST(GroupAngles, FillsAVectorWithThoseThatEveryStepNeeds) {
     EXPECT_EQ(ir::print(passes::group_angles(program, report)), ir::print(program));
 }
 
+// The sine is one of the same call, whose angles are known before it.
+TEST(GroupAngles, LeavesAnglesOfAngles) {
+    passes::Report report;
+    const std::string text = step_text(valid(passes::group_angles(
+        grounded_turns("cos[sin[x]] * sin[x]", "cos[y] - sin[y + turn]"), report)));
+    EXPECT_NE(text.find("together(sin(state.x), cos(state.y), sin(state.y + action.turn))"),
+              std::string::npos)
+        << text;
+    EXPECT_NE(text.find("cos(scratch.angles[0]) * scratch.angles[0]"), std::string::npos) << text;
+}
+
 TEST(GroupAngles, LeavesTooFewAngles) {
     for (const auto& [cpf, reward] : {
              std::pair{"x + sin[x]", "cos[x] - sin[y]"},             // two angles
