@@ -45,8 +45,10 @@ void Tree::reopen_edges(NodeId id) {
     const std::size_t first = node.first_edge, count = node.edge_count;
     node.first_edge = static_cast<EdgeId>(edges_.size());
     for (std::size_t e = first; e < first + count; ++e) {
+        const auto now = static_cast<EdgeId>(edges_.size());
         edges_.push_back(Edge(edges_[e]));
         arms_.push_back(Arm(arms_[e]));
+        if (edges_[now].outcome_count > few_outcomes) list_outcomes(now, edges_[now]);
     }
 }
 
@@ -104,12 +106,15 @@ std::uint32_t Tree::place_of(EdgeId id, NodeId after) {
     return append_outcome(id, edge, {after, 0, 0, 0});
 }
 
+void Tree::list_outcomes(EdgeId id, const Edge& edge) {
+    for (std::uint32_t place = 0; place < edge.outcome_count; ++place)
+        list_outcome(id, outcomes(edge)[place].node, place);
+}
+
 // Its place. A full block moves to the end, with as much room again.
 std::uint32_t Tree::append_outcome(EdgeId id, Edge& edge, const Outcome& outcome) {
     const std::size_t count = edge.outcome_count;
-    if (count == few_outcomes)
-        for (std::uint32_t place = 0; place < count; ++place)
-            list_outcome(id, outcomes(edge)[place].node, place);
+    if (count == few_outcomes) list_outcomes(id, edge);
     if (count >= few_outcomes) list_outcome(id, outcome.node, static_cast<std::uint32_t>(count));
     if (count == 0 || std::has_single_bit(count)) {
         const std::size_t first = outcomes_.size();

@@ -14,6 +14,29 @@
 namespace rddlc::planners {
 namespace {
 
+// A tree of states that have numbers.
+struct SmallTree {
+    Tree tree{sizeof(std::uint64_t), 1, Backup::Max};
+
+    SmallTree() { tree.clear(); }
+    static std::vector<std::byte> record(std::uint64_t state) {
+        std::vector<std::byte> bytes(sizeof state);
+        std::memcpy(bytes.data(), &state, sizeof state);
+        return bytes;
+    }
+    NodeId open(std::uint64_t state, std::int64_t step) {
+        const NodeId node = tree.node_of(record(state).data(), step);
+        tree.node(node).is_open = true;
+        return node;
+    }
+    // A trial that ends in a node of that value.
+    void go(NodeId from, EdgeId edge, NodeId to, double value) {
+        tree.start(from, edge);
+        tree.node(to).value = value;
+        tree.back_up(from, edge, tree.add_outcome(edge, to), 0, value);
+    }
+};
+
 // The typical outcome of a step forward is the next place. The goal is 12 of them away.
 TEST(DeterminisedProblem, HasTheValuesOfTypicalCourses) {
     const workbench::LoadedProblem loaded = interpreted("corridor");
@@ -208,6 +231,27 @@ TEST(Tree, KeepsWhatIsBelowAnAction) {
     EXPECT_EQ(edge.outcome_count, 1);
     EXPECT_EQ(tree.seen_outcome(tree.id_of(edge), 0.5), *tree.find(state(4).data(), 2));
     EXPECT_EQ(tree.arms(tree.node(*tree.find(state(4).data(), 2)))[1].value, 5);
+}
+
+// Edges that get other numbers find their outcomes: few ones, and those that a table has.
+TEST(Tree, FindsOutcomesOfReopenedEdges) {
+    for (const std::uint32_t count : {8u, 9u, 40u}) {
+        SCOPED_TRACE(count);
+        SmallTree small;
+        Tree& tree = small.tree;
+        const NodeId root = small.open(0, 0);
+        const EdgeId left = tree.add_edge(root, 0), right = tree.add_edge(root, 1);
+        const auto meet_all = [&](EdgeId edge, double value) {
+            for (std::uint32_t k = 0; k < count; ++k) small.go(root, edge, small.open(k, 1), value);
+        };
+        meet_all(left, 10);
+        meet_all(right, 10);
+        tree.reopen_edges(root);
+        meet_all(tree.node(root).first_edge, 2);
+        EXPECT_EQ(tree.edges(tree.node(root))[0].outcome_count, count);
+        EXPECT_EQ(tree.arms(tree.node(root))[0].value, 2);
+        EXPECT_EQ(tree.arms(tree.node(root))[1].value, 10);
+    }
 }
 
 }  // namespace
