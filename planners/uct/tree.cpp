@@ -170,9 +170,11 @@ void Tree::keep_below(EdgeId edge) {
     for (NodeId id = 1; id < found.size(); ++id) {
         const Node& node = nodes_[found[id]];
         Node& copy = kept.nodes_[id];
+        const auto [edge_before, outcome_before] = std::pair(copy.edge_before, copy.outcome);
         copy = node;
         copy.first_edge = static_cast<EdgeId>(kept.edges_.size());
-        copy.edge_before = no_edge;
+        copy.edge_before = edge_before;  // of the nodes that lead here, which come first
+        copy.outcome = outcome_before;
         for (const Edge& old : edges(node)) {
             Edge now = old;
             now.outcome_count = 0;

@@ -254,5 +254,25 @@ TEST(Tree, FindsOutcomesOfReopenedEdges) {
     }
 }
 
+// Trials that meet a kept outcome again do not take it for another one, whatever way they come.
+TEST(Tree, FindsOutcomesThatWereKept) {
+    SmallTree small;
+    Tree& tree = small.tree;
+    const NodeId root = small.open(1, 0), middle = small.open(2, 1), last = small.open(3, 2);
+    const EdgeId first = tree.add_edge(root, 0);
+    for (const std::uint32_t action : {0u, 1u}) tree.add_edge(middle, action);
+    for (const EdgeId edge : {0u, 1u}) {
+        small.go(middle, tree.node(middle).first_edge + edge, last, 10);
+        small.go(root, first, middle, 10);
+    }
+    tree.keep_below(first);
+    const NodeId kept = small.open(2, 1);
+    for (const EdgeId edge : {0u, 1u}) {
+        small.go(kept, tree.node(kept).first_edge + edge, small.open(3, 2), 2);
+        EXPECT_EQ(tree.edges(tree.node(kept))[edge].outcome_count, 1u);
+        EXPECT_EQ(tree.arms(tree.node(kept))[edge].value, 2);
+    }
+}
+
 }  // namespace
 }  // namespace rddlc::planners
