@@ -161,12 +161,13 @@ void Tree::keep_below(EdgeId edge) {
     std::vector<NodeId> kept_id(size(), over);
     found.push_back(over);
     const auto keep = [&](NodeId id) {
-        if (id == over || kept_id[id] != over || !nodes_[id].is_open) return kept_id[id];
+        if (id == over || kept_id[id] != over) return kept_id[id];
         found.push_back(id);
         kept_id[id] = kept.node_of(state(id), nodes_[id].step);
         return kept_id[id];
     };
-    for (const Outcome& outcome : outcomes(edges_[edge])) keep(outcome.node);
+    for (const Outcome& outcome : outcomes(edges_[edge]))
+        if (nodes_[outcome.node].is_open) keep(outcome.node);
     for (NodeId id = 1; id < found.size(); ++id) {
         const Node& node = nodes_[found[id]];
         Node& copy = kept.nodes_[id];

@@ -274,5 +274,23 @@ TEST(Tree, FindsOutcomesThatWereKept) {
     }
 }
 
+// A node whose value is out of date, and was not found again in time, is not an end of the episode.
+TEST(Tree, KeepsNodesThatWaitForANewValue) {
+    SmallTree small;
+    Tree& tree = small.tree;
+    const NodeId root = small.open(1, 0), middle = small.open(2, 1), last = small.open(3, 2);
+    const EdgeId first = tree.add_edge(root, 0);
+    small.go(middle, tree.add_edge(middle, 0), last, 10);
+    small.go(root, first, middle, 10);
+    tree.node(last).is_open = false;
+    tree.keep_below(first);
+    const NodeId* const kept = tree.find(small.record(3).data(), 2);
+    ASSERT_NE(kept, nullptr);
+    EXPECT_FALSE(tree.node(*kept).is_open);
+    EXPECT_EQ(tree.node(*kept).value, 10);
+    const NodeId before = *tree.find(small.record(2).data(), 1);
+    EXPECT_EQ(tree.seen_outcome(tree.node(before).first_edge, 0), *kept);
+}
+
 }  // namespace
 }  // namespace rddlc::planners
