@@ -11,6 +11,13 @@
 
 namespace rddlc::planners {
 
+// Small pages do as well. Some systems, as macOS, know no such advice.
+inline void ask_for_large_pages([[maybe_unused]] void* memory, [[maybe_unused]] std::size_t bytes) {
+#ifdef MADV_HUGEPAGE
+    madvise(memory, bytes, MADV_HUGEPAGE);
+#endif
+}
+
 template <class T>
 struct LargePages {
     using value_type = T;
@@ -26,7 +33,7 @@ struct LargePages {
         const std::size_t whole = (bytes + page - 1) / page * page;
         void* const memory = std::aligned_alloc(page, whole);
         if (!memory) throw std::bad_alloc();
-        madvise(memory, whole, MADV_HUGEPAGE);  // small pages do as well
+        ask_for_large_pages(memory, whole);
         return static_cast<T*>(memory);
     }
     void deallocate(T* memory, std::size_t count) {

@@ -24,7 +24,11 @@ bool Uct::value_new_nodes(const DecisionPoint& point, RandomStream& stream, Budg
     const bool is_done = is_determinised() ? value_by_determinisation(point, stream, meter)
                          : state_values_   ? value_by_network(meter)
                                            : value_by_policy(point, stream, meter, draws);
-    return is_done && (options_.policy.empty() || find_priors(point, stream, meter));
+    if (!is_done || options_.policy.empty()) return is_done;
+    if (is_determinised())  // their edges are for the priors
+        for (const NodeId id : new_nodes_)
+            if (!tree().node(id).is_locked) open_edges(id);
+    return find_priors(point, stream, meter);
 }
 
 template <class Judge>
@@ -92,7 +96,7 @@ void Uct::set_priors(Node& node, const float* logarithms) {
     for (Edge& edge : tree().edges(node))
         edge.prior =
             (1 - likeliest_share) * edge.prior / sum + (&edge == likeliest ? likeliest_share : 0);
-    node.has_priors = true;
+    node.has_priors = likeliest != nullptr;
 }
 
 // The policy's action has half of the prior, and all share the rest.

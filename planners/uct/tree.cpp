@@ -45,8 +45,10 @@ void Tree::reopen_edges(NodeId id) {
     const std::size_t first = node.first_edge, count = node.edge_count;
     node.first_edge = static_cast<EdgeId>(edges_.size());
     for (std::size_t e = first; e < first + count; ++e) {
+        const auto now = static_cast<EdgeId>(edges_.size());
         edges_.push_back(Edge(edges_[e]));
         arms_.push_back(Arm(arms_[e]));
+        if (edges_[now].outcome_count > few_outcomes) list_outcomes(now, edges_[now]);
     }
 }
 
@@ -104,12 +106,15 @@ std::uint32_t Tree::place_of(EdgeId id, NodeId after) {
     return append_outcome(id, edge, {after, 0, 0, 0});
 }
 
+void Tree::list_outcomes(EdgeId id, const Edge& edge) {
+    for (std::uint32_t place = 0; place < edge.outcome_count; ++place)
+        list_outcome(id, outcomes(edge)[place].node, place);
+}
+
 // Its place. A full block moves to the end, with as much room again.
 std::uint32_t Tree::append_outcome(EdgeId id, Edge& edge, const Outcome& outcome) {
     const std::size_t count = edge.outcome_count;
-    if (count == few_outcomes)
-        for (std::uint32_t place = 0; place < count; ++place)
-            list_outcome(id, outcomes(edge)[place].node, place);
+    if (count == few_outcomes) list_outcomes(id, edge);
     if (count >= few_outcomes) list_outcome(id, outcome.node, static_cast<std::uint32_t>(count));
     if (count == 0 || std::has_single_bit(count)) {
         const std::size_t first = outcomes_.size();
@@ -156,18 +161,21 @@ void Tree::keep_below(EdgeId edge) {
     std::vector<NodeId> kept_id(size(), over);
     found.push_back(over);
     const auto keep = [&](NodeId id) {
-        if (id == over || kept_id[id] != over || !nodes_[id].is_open) return kept_id[id];
+        if (id == over || kept_id[id] != over) return kept_id[id];
         found.push_back(id);
         kept_id[id] = kept.node_of(state(id), nodes_[id].step);
         return kept_id[id];
     };
-    for (const Outcome& outcome : outcomes(edges_[edge])) keep(outcome.node);
+    for (const Outcome& outcome : outcomes(edges_[edge]))
+        if (nodes_[outcome.node].is_open) keep(outcome.node);
     for (NodeId id = 1; id < found.size(); ++id) {
         const Node& node = nodes_[found[id]];
         Node& copy = kept.nodes_[id];
+        const auto [edge_before, outcome_before] = std::pair(copy.edge_before, copy.outcome);
         copy = node;
         copy.first_edge = static_cast<EdgeId>(kept.edges_.size());
-        copy.edge_before = no_edge;
+        copy.edge_before = edge_before;  // of the nodes that lead here, which come first
+        copy.outcome = outcome_before;
         for (const Edge& old : edges(node)) {
             Edge now = old;
             now.outcome_count = 0;

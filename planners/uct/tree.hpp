@@ -172,6 +172,7 @@ class Tree {
     void list_outcome(EdgeId id, NodeId node, std::uint32_t place) {
         places_.add(outcome_key(id, node), place + 1);
     }
+    void list_outcomes(EdgeId id, const Edge& edge);
     void reserve_as(const Tree& other);
     void add_weight(Node& node, EdgeId edge, std::int32_t more);
     void add_value_after(Edge& edge, Outcome& outcome);

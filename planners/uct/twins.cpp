@@ -65,7 +65,12 @@ void Uct::compare_twins(NodeId id, const DecisionPoint& point, RandomStream& str
         if (determinised.compared(state) >= enough_draws) determinised.forget_twins(state);
     }
     tree().node(id).twins_at = twins_at(state);
-    if (determinised.moves(state).size() > tree().node(id).edge_count) add_late_moves(id, state);
+    if (determinised.moves(state).size() == tree().node(id).edge_count) return;
+    add_late_moves(id, state);
+    if (options_.policy.empty()) return;
+    tree().node(id).has_priors = false;  // some of its edges have none
+    new_nodes_.assign(1, id);
+    find_priors(point, stream, meter);
 }
 
 // They have the estimates of their twins.

@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -158,6 +160,30 @@ TEST(Uct, TriesTheActionOfThePolicyFirst) {
     EXPECT_EQ(
         run(network(), "plan:uct,policy=random,initial=determinised,steps=5000").summary.episodes,
         1);
+}
+
+// Nodes of the determinised problem have edges when the policy is asked about them, and it is asked
+// again where draws tell twins apart: in the network all candidates but three.
+TEST(Uct, AsksThePolicyAboutNodesOfTheDeterminisedProblem) {
+    const auto played = [](const std::string& options, int threads = 1) {
+        return run(network(), "plan:uct,initial=determinised,iterations=200," + options, 1,
+                   threads);
+    };
+    const auto trials = [&](const std::string& options) {
+        std::vector<std::int64_t> all;
+        for (const auto& candidate : played(options).thought(0, 0).candidates)
+            all.push_back(candidate.trials);
+        return all;
+    };
+    const std::string fond = "policy=fond of the last action";
+    const auto with = trials("lanes=1,policy=noop"), without = trials("lanes=1"),
+               of_fond = trials("lanes=1," + fond);
+    ASSERT_EQ(of_fond.size(), 9u);
+    EXPECT_GT(with[0], without[0] + 10);
+    EXPECT_GT(std::ranges::max(std::span(of_fond).subspan(3)),
+              2 * std::ranges::max(std::span(with).subspan(3)));
+    for (const std::int64_t each : trials("lanes=32," + fond)) EXPECT_GT(each, 1);
+    EXPECT_EQ(played("lanes=32," + fond).returns(), played("lanes=32," + fond, 2).returns());
 }
 
 // The first decision has so many trials as candidates show. The second one has those of the first

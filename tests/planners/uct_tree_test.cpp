@@ -14,6 +14,29 @@
 namespace rddlc::planners {
 namespace {
 
+// A tree of states that have numbers.
+struct SmallTree {
+    Tree tree{sizeof(std::uint64_t), 1, Backup::Max};
+
+    SmallTree() { tree.clear(); }
+    static std::vector<std::byte> record(std::uint64_t state) {
+        std::vector<std::byte> bytes(sizeof state);
+        std::memcpy(bytes.data(), &state, sizeof state);
+        return bytes;
+    }
+    NodeId open(std::uint64_t state, std::int64_t step) {
+        const NodeId node = tree.node_of(record(state).data(), step);
+        tree.node(node).is_open = true;
+        return node;
+    }
+    // A trial that ends in a node of that value.
+    void go(NodeId from, EdgeId edge, NodeId to, double value) {
+        tree.start(from, edge);
+        tree.node(to).value = value;
+        tree.back_up(from, edge, tree.add_outcome(edge, to), 0, value);
+    }
+};
+
 // The typical outcome of a step forward is the next place. The goal is 12 of them away.
 TEST(DeterminisedProblem, HasTheValuesOfTypicalCourses) {
     const workbench::LoadedProblem loaded = interpreted("corridor");
@@ -208,6 +231,65 @@ TEST(Tree, KeepsWhatIsBelowAnAction) {
     EXPECT_EQ(edge.outcome_count, 1);
     EXPECT_EQ(tree.seen_outcome(tree.id_of(edge), 0.5), *tree.find(state(4).data(), 2));
     EXPECT_EQ(tree.arms(tree.node(*tree.find(state(4).data(), 2)))[1].value, 5);
+}
+
+// Edges that get other numbers find their outcomes: few ones, and those that a table has.
+TEST(Tree, FindsOutcomesOfReopenedEdges) {
+    for (const std::uint32_t count : {8u, 9u, 40u}) {
+        SCOPED_TRACE(count);
+        SmallTree small;
+        Tree& tree = small.tree;
+        const NodeId root = small.open(0, 0);
+        const EdgeId left = tree.add_edge(root, 0), right = tree.add_edge(root, 1);
+        const auto meet_all = [&](EdgeId edge, double value) {
+            for (std::uint32_t k = 0; k < count; ++k) small.go(root, edge, small.open(k, 1), value);
+        };
+        meet_all(left, 10);
+        meet_all(right, 10);
+        tree.reopen_edges(root);
+        meet_all(tree.node(root).first_edge, 2);
+        EXPECT_EQ(tree.edges(tree.node(root))[0].outcome_count, count);
+        EXPECT_EQ(tree.arms(tree.node(root))[0].value, 2);
+        EXPECT_EQ(tree.arms(tree.node(root))[1].value, 10);
+    }
+}
+
+// Trials that meet a kept outcome again do not take it for another one, whatever way they come.
+TEST(Tree, FindsOutcomesThatWereKept) {
+    SmallTree small;
+    Tree& tree = small.tree;
+    const NodeId root = small.open(1, 0), middle = small.open(2, 1), last = small.open(3, 2);
+    const EdgeId first = tree.add_edge(root, 0);
+    for (const std::uint32_t action : {0u, 1u}) tree.add_edge(middle, action);
+    for (const EdgeId edge : {0u, 1u}) {
+        small.go(middle, tree.node(middle).first_edge + edge, last, 10);
+        small.go(root, first, middle, 10);
+    }
+    tree.keep_below(first);
+    const NodeId kept = small.open(2, 1);
+    for (const EdgeId edge : {0u, 1u}) {
+        small.go(kept, tree.node(kept).first_edge + edge, small.open(3, 2), 2);
+        EXPECT_EQ(tree.edges(tree.node(kept))[edge].outcome_count, 1u);
+        EXPECT_EQ(tree.arms(tree.node(kept))[edge].value, 2);
+    }
+}
+
+// A node whose value is out of date, and was not found again in time, is not an end of the episode.
+TEST(Tree, KeepsNodesThatWaitForANewValue) {
+    SmallTree small;
+    Tree& tree = small.tree;
+    const NodeId root = small.open(1, 0), middle = small.open(2, 1), last = small.open(3, 2);
+    const EdgeId first = tree.add_edge(root, 0);
+    small.go(middle, tree.add_edge(middle, 0), last, 10);
+    small.go(root, first, middle, 10);
+    tree.node(last).is_open = false;
+    tree.keep_below(first);
+    const NodeId* const kept = tree.find(small.record(3).data(), 2);
+    ASSERT_NE(kept, nullptr);
+    EXPECT_FALSE(tree.node(*kept).is_open);
+    EXPECT_EQ(tree.node(*kept).value, 10);
+    const NodeId before = *tree.find(small.record(2).data(), 1);
+    EXPECT_EQ(tree.seen_outcome(tree.node(before).first_edge, 0), *kept);
 }
 
 }  // namespace
