@@ -91,7 +91,8 @@ inline constexpr std::size_t most_instructions = 20'000'000;
 // matrices and random vectors, which have no derivatives here.
 StraightLine unroll(const ir::Program& program);
 
-// That sentence, without unrolling; nothing: unroll() takes the program if it is not too large.
+// That sentence, without unrolling; nothing: unroll() takes the program if it is not too large. It
+// is also of the output of `ground`: passes add calls, and fold others.
 std::optional<std::string> refusal_of(const ir::Program& program);
 
 // Whether it has instructions whose derivatives a relaxation changes (evaluation.hpp).

@@ -7,7 +7,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
+#include <string>
 
 namespace rddlc::solvers {
 
@@ -45,10 +47,11 @@ Trainee drp_trainee(const rddl_simulator& simulator, const DrpOptions& options,
     };
     trainee.status = [=] {
         const DrpProgress& progress = trainer->progress();
-        return fmt::format("{} steps  {} gradients  return {:.6g} (relaxed)",
-                           count_text(static_cast<double>(progress.steps)),
-                           count_text(static_cast<double>(progress.gradients)),
-                           progress.mean_return);
+        const std::string made =
+            fmt::format("{} steps  {} gradients", count_text(static_cast<double>(progress.steps)),
+                        count_text(static_cast<double>(progress.gradients)));
+        if (std::isnan(progress.mean_return)) return made;
+        return fmt::format("{}  return {:.6g} (relaxed)", made, progress.mean_return);
     };
     trainee.save = [=] {
         return trainer->save();

@@ -23,7 +23,7 @@ const CheckpointKind checkpoint{"DRP", "rddl drp checkpoint", 1};
 
 // An update makes gradients until it has so many steps.
 constexpr std::int64_t steps_of_update = 20'000;
-constexpr int most_gradients_of_update = 20;
+constexpr std::int64_t most_gradients_of_update = 20;
 // Features that differ less, by deviations of their mean, count as if they differed so much: what
 // hardly moves at first would have an enormous derivative.
 constexpr double least_deviation = 0.01;
@@ -94,32 +94,38 @@ struct DrpTrainer::State {
         return options.relaxation == Relaxation::Mode::Soft && derivatives->can_be_relaxed();
     }
 
-    // The gradient of the mean return, and the features that were seen; neither where `ends` says
-    // so.
-    void find_gradient(const Stops& ends) {
+    // The gradient of the mean return, and the features that were seen. Returns false where `ends`
+    // says so; then neither means anything, and progress is as it was.
+    bool find_gradient(const Stops& ends) {
         std::ranges::fill(gradient, 0.0f);
         std::ranges::fill(seen, Moments{});
         double sum = 0, count = 0;
-        for (int group = 0; group < groups && !ends(); ++group) {
+        std::int64_t steps = 0;
+        for (int group = 0; group < groups; ++group) {
             std::array<std::uint64_t, derivative_lanes> seeds{};
             for (int k = 0; k < lanes; ++k)
                 seeds[static_cast<std::size_t>(k)] =
                     seed_of(options.seed, progress.gradients, group * lanes + k);
             gradient_of_return.add(seeds, gradient, seen, ends);
-            progress.steps += gradient_of_return.steps();
+            if (ends()) return false;
+            steps += gradient_of_return.steps();
             for (const double each : gradient_of_return.returns()) {
                 if (!std::isfinite(each)) continue;
                 sum += each;
                 count += 1;
             }
         }
-        if (ends()) return;
         if (count == 0)
             throw Failure(fmt::format("no episode of gradient {} has a finite return",
                                       progress.gradients + 1),
                           "'rddl run --policy random --trace' shows what leads there");
-        returns.add(sum / count);
+        progress.steps += steps;
+        under_way.steps += steps;
+        under_way.returns.add(sum / count);
+        return true;
     }
+
+    bool has_scales() const { return features.empty() || features.front().count > 0; }
 
     void learn_scales() {
         for (std::size_t f = 0; f < features.size(); ++f) {
@@ -137,6 +143,7 @@ struct DrpTrainer::State {
         const double length =
             std::sqrt(network_functions().squares(gradient.size(), gradient.data()));
         progress.gradients += 1;
+        under_way.gradients += 1;
         progress.gradient_length = length;
         if (!std::isfinite(length) || length == 0) return;
         if (progress.mean_length == 0) progress.mean_length = length;
@@ -150,26 +157,24 @@ struct DrpTrainer::State {
              second_moments, model.parameters);
     }
 
+    bool is_complete() const {
+        return under_way.gradients == most_gradients_of_update ||
+               (under_way.gradients > 0 && under_way.steps >= steps_of_update);
+    }
+
     void update(const Stops& is_late) {
         const Stops ends = [&] {
             return is_stopped(&options.stops) || is_stopped(&is_late);
         };
         const auto begin = std::chrono::steady_clock::now();
-        returns = {};
-        const std::int64_t before = progress.steps;
-        if (progress.gradients == 0) {  // the first scales; nothing is learned yet
-            find_gradient(ends);
-            if (ends()) return;
-            learn_scales();
-        }
-        for (int g = 0; g < most_gradients_of_update; ++g) {
-            find_gradient(ends);
-            if (ends()) break;
+        if (!has_scales() && find_gradient(ends)) learn_scales();  // and nothing else
+        while (has_scales() && !is_complete() && find_gradient(ends)) {
             climb();
             learn_scales();
-            if (progress.steps - before >= steps_of_update) break;
         }
+        const Moments& returns = under_way.returns;
         if (returns.count > 0) progress.mean_return = returns.sum / returns.count;
+        if (is_complete()) under_way = {};
         progress.seconds =
             std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     }
@@ -177,6 +182,7 @@ struct DrpTrainer::State {
     template <class Archive>
     void archive(Archive& archive) {
         archive(progress);
+        archive(under_way);
         const std::size_t size = model.parameters.size();
         archive(model.parameters);
         if (model.parameters.size() != size)
@@ -202,7 +208,12 @@ struct DrpTrainer::State {
     std::int64_t adam_steps = 0;
     std::vector<RunningStatistics> features;
     std::vector<Moments> seen;
-    Moments returns;  // of the gradients of an update
+    // The part of an update that is made. A clock that stops a run divides an update; the next call
+    // goes on with it, so that updates end after the same gradients as without the stop.
+    struct {
+        std::int64_t steps = 0, gradients = 0;
+        Moments returns;  // of its gradients
+    } under_way;
     DrpProgress progress;
 };
 
@@ -220,7 +231,7 @@ void DrpTrainer::update(const Stops& is_late) {
     state_->update(is_late);
 }
 bool DrpTrainer::done() const {
-    return state_->progress.steps >= state_->options.steps;
+    return state_->progress.steps >= state_->options.steps && state_->under_way.steps == 0;
 }
 const PpoModel& DrpTrainer::model() const {
     return state_->model;

@@ -14,6 +14,7 @@
 #include <rddl/simulator.h>
 
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -22,10 +23,12 @@ namespace rddlc::solvers {
 
 struct DrpProgress {
     std::int64_t steps = 0, gradients = 0;  // since the beginning
-    double mean_return = 0;                 // relaxed and discounted, of the last update
-    double gradient_length = 0;             // of the last gradient
-    double mean_length = 0;                 // of all gradients, the last ones more than the others
-    double seconds = 0;                     // of the last update
+    // The mean of the last update's returns, which are relaxed and discounted; nan before a return.
+    double mean_return = std::numeric_limits<double>::quiet_NaN();
+    // The length of the last gradient; nan before the first one.
+    double gradient_length = std::numeric_limits<double>::quiet_NaN();
+    double mean_length = 0;  // of all gradients, the last ones more than the others
+    double seconds = 0;      // of the last update
 };
 
 class DrpTrainer {
@@ -36,10 +39,11 @@ class DrpTrainer {
                const DerivativesSource& derivatives);
     ~DrpTrainer();
 
-    // Some gradient steps; no more of them once `is_late` says so, which is asked often. Throws a
-    // Failure where no episode of one has a finite return.
+    // Some gradient steps; no more of them once `is_late` says so, which is asked often. Then the
+    // next call makes the rest of them. Throws a Failure where no episode of one has a finite
+    // return.
     void update(const Stops& is_late = {});
-    bool done() const;  // the options' steps are made
+    bool done() const;  // the options' steps are made, and the last update is complete
 
     const PpoModel& model() const;
     const DrpOptions& options() const;  // with what it has chosen by itself

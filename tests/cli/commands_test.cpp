@@ -223,6 +223,31 @@ TEST_F(Program, TellsWhichLearnersTakeAProblem) {
     EXPECT_NE(trained.err.find(reason), std::string::npos) << trained.err;
 }
 
+// Derivatives are of the program before its optimisation: that computes three sines together, and
+// folds the factor of a matrix of constants.
+TEST_F(Program, TellsWhatHasDerivatives) {
+    const auto drp = [&](const std::string& root, const std::string& angles) {
+        write_file(folder_ / "turn.rddl",
+                   "domain turn { types { axis : object; };\n"
+                   "  pvariables { A(axis, axis) : { non-fluent, real, default = 0.0 };\n"
+                   "    x : { state-fluent, real, default = 1.0 };\n"
+                   "    root(axis, axis) : { interm-fluent, real };\n"
+                   "    turn : { action-fluent, real, default = 0.0 }; };\n"
+                   "  cpfs { root(?r, ?c) = " +
+                       root + ";\n    x' = turn + [sum_{?a : axis} root(?a, ?a)] + " + angles +
+                       "; };\n"
+                       "  reward = -x * x; action-preconditions { turn >= -1; turn <= 1; }; }");
+        write_file(folder_ / "turn_1.rddl",
+                   "non-fluents n { domain = turn; objects { axis : {a1, a2}; }; } instance turn_1 "
+                   "{ domain = turn; non-fluents = n; horizon = 3; discount = 1.0; }");
+        return run_json("info turn.rddl turn_1.rddl --json")["learners"]["drp"];
+    };
+    EXPECT_EQ(drp("A(?r, ?c)", "sin[x] + sin[2 * x] + sin[3 * x]"),
+              (json{{"takes", true}, {"reason", nullptr}}));
+    EXPECT_EQ(drp("cholesky[row=?r, col=?c][A(?r, ?c) + (?r == ?c)]", "x"),
+              (json{{"takes", false}, {"reason", "there are no derivatives of cholesky"}}));
+}
+
 TEST_F(Program, DescribesAProblemAsJson) {
     const json info = run_json("info domain.rddl instance.rddl --json");
     EXPECT_EQ(info["domain"], "tanks");

@@ -146,6 +146,41 @@ TEST(Drp, GoesOnAsIfItHadNotStopped) {
     EXPECT_NE(complaint([&] { second.load("nonsense"); }), "");
 }
 
+// A clock may end an update in the middle of a gradient, also of the one that learns the first
+// scales: the run goes on as if there had been no clock.
+TEST(Drp, GoesOnAsIfNoClockHadStoppedIt) {
+    const auto source = derivatives_in(EXAMPLES "/network");
+    DrpOptions options = small_training();
+    DrpTrainer whole(network(), options, source);
+    whole.update();
+    options.steps = whole.progress().steps;  // done at the end of its first update
+    whole.update();
+    bool has_stopped_after_scales = false;
+    for (const int most : {0, 30, 81, 82, 83, 100, 400}) {
+        SCOPED_TRACE(most);
+        DrpTrainer first(network(), options, source), second(network(), options, source);
+        int asked = 0;
+        first.update([&] { return ++asked > most; });
+        const solvers::DrpProgress stopped = first.progress();
+        has_stopped_after_scales |= stopped.gradients == 0 && stopped.steps > 0;
+        EXPECT_EQ(std::isnan(stopped.mean_return), stopped.steps == 0);
+        EXPECT_EQ(std::isnan(stopped.gradient_length), stopped.gradients == 0);
+        EXPECT_LT(stopped.steps, options.steps);
+        second.load(first.save());
+        EXPECT_FALSE(second.done());
+        second.update();
+        EXPECT_TRUE(second.done());
+        EXPECT_EQ(second.progress().steps, options.steps);
+        second.update();
+        EXPECT_EQ(second.progress().steps, whole.progress().steps);
+        EXPECT_EQ(second.progress().gradients, whole.progress().gradients);
+        EXPECT_EQ(second.progress().mean_return, whole.progress().mean_return);
+        EXPECT_TRUE(second.model().parameters == whole.model().parameters);
+        EXPECT_EQ(second.model().normaliser.means, whole.model().normaliser.means);
+    }
+    EXPECT_TRUE(has_stopped_after_scales);
+}
+
 TEST(Drp, RefusesWhatHasNoGradient) {
     const DrpOptions options = small_training();
     EXPECT_EQ(complaint([&] { DrpTrainer(maze(), options, derivatives_in(EXAMPLES "/t_maze")); }),
