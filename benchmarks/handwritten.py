@@ -206,7 +206,7 @@ def row_text(row: tuple[str, ...]) -> str:
 
 def disagreements(comparisons: list[Comparison]) -> list[str]:
     return [
-        f"{c.label}, {c.environments} environments: the results differ by {c.difference:.2g}"
+        f"{c.label}, {environments_text(c.environments)}: the results differ by {c.difference:.2g}"
         for c in comparisons
         if not c.difference <= GREATEST_DIFFERENCE
     ]
@@ -214,10 +214,14 @@ def disagreements(comparisons: list[Comparison]) -> list[str]:
 
 def shortfalls(comparisons: list[Comparison]) -> list[str]:
     return [
-        f"{c.label}, {c.environments} environments: the ratio {c.fast_ratio:.2f} is below {LEAST_RATIO:g}"
+        f"{c.label}, {environments_text(c.environments)}: the ratio {c.fast_ratio:.2f} is below {LEAST_RATIO:g}"
         for c in comparisons
         if REFERENCES[c.problem].is_required and c.fast_ratio < LEAST_RATIO
     ]
+
+
+def environments_text(count: int) -> str:
+    return f"{count:,} environment{'' if count == 1 else 's'}"
 
 
 def means(comparisons: list[Comparison]) -> list[str]:
@@ -225,10 +229,11 @@ def means(comparisons: list[Comparison]) -> list[str]:
     lines = []
     for environments in sorted({c.environments for c in comparisons}):
         ratios = [c.ratio for c in comparisons if c.environments == environments]
+        below = sum(r < LEAST_OF_ALL for r in ratios)
         lines.append(
-            f"{environments:,} environments: the geometric mean of the ratios is {statistics.geometric_mean(ratios):.2f} "
+            f"{environments_text(environments)}: the geometric mean of the ratios is {statistics.geometric_mean(ratios):.2f} "
             f"(aim {LEAST_MEAN:g}), the least {min(ratios):.2f} (aim {LEAST_OF_ALL:g}); "
-            f"{sum(r < LEAST_OF_ALL for r in ratios)} of {len(ratios)} are below {LEAST_OF_ALL:g}"
+            f"{below} of {len(ratios)} {'is' if below == 1 else 'are'} below {LEAST_OF_ALL:g}"
         )
     return lines
 

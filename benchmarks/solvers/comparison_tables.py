@@ -142,7 +142,7 @@ def settings_text(rows):
 
 
 def rows_beside_theirs(rows):
-    """The rows on which somebody else's result stands, and those of them on which ours is worse."""
+    """The rows that have a result of another program, and those of them on which ours is worse."""
     beside = [row for row in rows if row.best_of(THEIRS) and row.best_of(OURS)]
     return beside, [row for row in beside if not is_at_least(row.best_of(OURS), row.best_of(THEIRS))]
 
@@ -153,7 +153,7 @@ def rows_like_floors(rows):
 
 
 def listed(rows):
-    return ", ".join(row.name for row in rows) or "none"
+    return ", ".join(row.name for row in rows)
 
 
 def summary(rows):
@@ -163,19 +163,21 @@ def summary(rows):
     like_floors = rows_like_floors(rows)
     lines = [f"* Better than no-op and random by more than chance, of {len(rows)}: " + ", ".join(
         f"{COLUMNS[method]} {count}" for method, count in counts.items()) +
-        f"; at least one of them {len(rows) - len(like_floors)}.",
-        f"* None of ours is better than no-op and random: {listed(like_floors)}."]
+        f"; at least one of them {len(rows) - len(like_floors)}."]
+    if like_floors:
+        lines.append(f"* No method of rddlc is better than no-op and random on: {listed(like_floors)}.")
     solved = [row for row in rows if row.optimum and row.best_of(OURS)]
     if solved:
         below = [row for row in solved if not is_at_least(row.best_of(OURS), row.optimum)]
         lines.append(f"* The optimum is known on {len(solved)}. The best of ours is below it, by more than the errors, on "
-                     f"{len(below)}: {listed(below)}.")
+                     f"{len(below)}{': ' if below else ''}{listed(below)}.")
     for method in THEIRS:
         beside = [row for row in rows if has_value(row.results.get(method)) and row.best_of(OURS)]
         if beside:
             worse = [row for row in beside if not is_at_least(row.best_of(OURS), row.results[method])]
             lines.append(f"* The best of ours is at least as good as {COLUMNS[method]}, within errors, on "
-                         f"{len(beside) - len(worse)} of {len(beside)}. It is worse on: {listed(worse)}.")
+                         f"{len(beside) - len(worse)} of {len(beside)}." +
+                         (f" It is worse on: {listed(worse)}." if worse else ""))
     return "\n".join(lines)
 
 
@@ -186,10 +188,10 @@ def document(results):
 
 def shortfalls(results):
     """What keeps the results from the aims: ours as good as theirs on nine rows of ten, and better than no-op and random
-    wherever anybody is."""
+    wherever some method is."""
     rows = rows_of(results)
     beside, worse = rows_beside_theirs(rows)
-    missing = [f"{row.name}: somebody is better than no-op and random, and none of ours is"
+    missing = [f"{row.name}: some method is better than no-op and random, and no method of rddlc is"
                for row in rows_like_floors(rows) if row.is_better_possible]
     if beside and len(worse) > (1 - REQUIRED_SHARE) * len(beside):
         missing.append(f"ours is worse than theirs on {len(worse)} of {len(beside)}: {listed(worse)}")

@@ -152,4 +152,6 @@ def shown(given: Any) -> str:
         text = repr(given)
     except ValueError:  # Python writes no int of thousands of digits
         text = f"a number of {given.bit_length()} bits"
+    except RecursionError:
+        text = f"a {type(given).__name__} of too many levels"
     return text if len(text) <= 40 else text[:37] + "..."

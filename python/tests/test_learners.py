@@ -284,6 +284,11 @@ class Learners(unittest.TestCase):
                 rddlc.PPO.load(reactive, problem)
             with self.assertRaisesRegex(rddlc.ArgumentError, r"x\.json'.* PPO .*rddlc\.PPO\.load"):
                 rddlc.DRP.load(network, problem)
+            unknown = Path(name) / "z.json"
+            for text in ("null", '{"solver":"drp"}'):
+                unknown.write_text(text)
+                with self.assertRaisesRegex(rddlc.Error, "it is not a policy of PPO or DRP"):
+                    rddlc.DRP.load(unknown, problem)
 
     def test_keywords_that_are_not_known_are_refused_with_what_was_meant(self) -> None:
         problem = example("network").problem

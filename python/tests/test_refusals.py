@@ -78,6 +78,11 @@ class Refusals(unittest.TestCase):
         before = env.get_state()
         other = example("network")
         other.reset(seed=1)
+        own: list[object] = []
+        own.append(own)
+        deep: list[object] = [0.5]
+        for _ in range(100_000):
+            deep = [deep]
         self.check(
             [
                 (lambda: env.reset(options=[1]), TypeError, "a dictionary, not a list"),
@@ -97,6 +102,9 @@ class Refusals(unittest.TestCase):
                 (lambda: env.step({"throttle": b"\x01"}), rddlc.ActionError, "throttle"),
                 (lambda: env.step({"throttle": bytearray(b"\x01")}), rddlc.ActionError, "throttle"),
                 (lambda: env.step({"throttle": memoryview(b"\x01")}), rddlc.ActionError, "throttle"),
+                (lambda: env.step({"throttle": 10**5000}), rddlc.ActionError, "a number of 16610 bits"),
+                (lambda: env.step({"throttle": own}), rddlc.ActionError, r"throttle.* is \[\[...\]\], "),
+                (lambda: env.step({"throttle": deep}), rddlc.ActionError, "throttle"),
                 (lambda: env.step({1: 2}), rddlc.ActionError, "no action '1'"),
             ]
         )

@@ -297,7 +297,7 @@ Json acted_in(Json space) {
 void require_format(const Json& json) {
     const bool is_policy = json.is_object() && json.value("format", "") == "rddl-policy";
     const std::string solver = is_policy ? json.value("solver", "") : "";
-    if (solver != "ppo" && solver != "drp") throw Failure("it is not a PPO policy");
+    if (solver != "ppo" && solver != "drp") throw Failure("it is not a policy of PPO or DRP");
     const Json& version = json.at("version");
     if (version.is_number_integer() && version > policy_file_version)
         throw Failure(fmt::format("it is of version {}, and this program reads versions up to {}",
@@ -437,7 +437,7 @@ std::shared_ptr<const PpoModel> read_ppo_policy(const rddl_simulator& simulator,
     } catch (const RefusedJson& refused) {
         throw Failure(refused.byte ? "it is incomplete, or not JSON" : refused.what());
     } catch (const nlohmann::json::exception&) {
-        throw Failure("it is not a PPO policy, or something in it is missing");
+        throw Failure("it is not a policy of PPO or DRP, or something in it is missing");
     }
 }
 

@@ -190,11 +190,13 @@ class CompareAll(unittest.TestCase):
         self.assertEqual(
             comparison_tables.shortfalls(found_by_them + possible + discounted + within_errors),
             [
-                "a 1: somebody is better than no-op and random, and none of ours is",
-                "b 1: somebody is better than no-op and random, and none of ours is",
+                "a 1: some method is better than no-op and random, and no method of rddlc is",
+                "b 1: some method is better than no-op and random, and no method of rddlc is",
                 "ours is worse than theirs on 1 of 2: a 1",
             ],
         )
+        text = comparison_tables.summary(comparison_tables.rows_of(within_errors))  # lists no rows
+        self.assertRegex(text, "at least one of them 1.\n.* within errors, on 1 of 1.$")
 
     def test_table(self):
         failure = {"problem": "a", "instance": "1", "method": "cgp", "failure": "longer than 60 s"}
@@ -298,8 +300,8 @@ class Handwritten(unittest.TestCase):
         self.assertEqual(
             handwritten.means(comparisons),
             [
-                "1 environments: the geometric mean of the ratios is 0.80 (aim 0.8), the least 0.40 (aim 0.5); "
-                "1 of 2 are below 0.5",
+                "1 environment: the geometric mean of the ratios is 0.80 (aim 0.8), the least 0.40 (aim 0.5); "
+                "1 of 2 is below 0.5",
                 "1,024 environments: the geometric mean of the ratios is 1.00 (aim 0.8), the least 1.00 (aim 0.5); "
                 "0 of 1 are below 0.5",
             ],
@@ -312,10 +314,10 @@ class Handwritten(unittest.TestCase):
         not_required = handwritten.Comparison("Knapsack_or", 1024, 0.0, 1.0, 9.0, 0.1, 0.1)
         alone = [good, slow, wrong, not_required]
         self.assertEqual(
-            handwritten.shortfalls(alone), ["Pendulum_gym 0, 1024 environments: the ratio 0.80 is below 0.9"]
+            handwritten.shortfalls(alone), ["Pendulum_gym 0, 1,024 environments: the ratio 0.80 is below 0.9"]
         )
         self.assertEqual(
-            handwritten.disagreements(alone), ["Knapsack_or 0, 1 environments: the results differ by inf"]
+            handwritten.disagreements(alone), ["Knapsack_or 0, 1 environment: the results differ by inf"]
         )
 
 

@@ -46,6 +46,10 @@ TEST_F(TrainDrp, WritesAPolicyThatActsAndResumes) {
                       .status,
                   0)
             << form;
+    const Outcome unknown =
+        run("export domain.rddl instance.rddl --policy r -o p --as dot" + std::string(interpreted));
+    EXPECT_EQ(unknown.status, 2);
+    expect_part(unknown.err, "networks of DRP are not written as dot");
     const Outcome refused = train(" --relax hard");
     EXPECT_EQ(refused.status, 2);
     expect_part(refused.err, "--relax: 'hard' is not one of soft, straight, exact");

@@ -446,7 +446,7 @@ TEST(Ppo, PoliciesAreReadAsTheyWereWritten) {
         return complaint([&] { read_ppo_policy(car, other); });
     };
     EXPECT_EQ(read(text.substr(0, text.size() / 2)), "it is incomplete, or not JSON");
-    EXPECT_EQ(read("{}"), "it is not a PPO policy");
+    EXPECT_EQ(read("{}"), "it is not a policy of PPO or DRP");
     std::string newer = text;
     newer.replace(newer.find("\"version\":6"), 11, "\"version\":9");
     EXPECT_EQ(read(newer), "it is of version 9, and this program reads versions up to 6");

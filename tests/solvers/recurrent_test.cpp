@@ -173,7 +173,7 @@ TEST(Recurrent, PoliciesOfWrongSizesAreRefused) {
     without = text;
     without["recurrent"].erase("reset");
     EXPECT_EQ(sentence_of([&] { read_ppo_policy(maze(), without.dump()); }),
-              "it is not a PPO policy, or something in it is missing");
+              "it is not a policy of PPO or DRP, or something in it is missing");
 }
 
 TEST(Recurrent, RefusesWhatCannotBe) {

@@ -37,7 +37,8 @@ std::string exported_network(const rddl_simulator& simulator, const std::string&
     if (form == "json") return solvers::ppo_policy_text(simulator, *model);
     if (form == "cpp") return solvers::ppo_policy_cpp(*model);
     if (form == "onnx") return solvers::ppo_policy_onnx(*model);
-    throw Failure(fmt::format("networks of {} are not written as {}", model->solver, form),
+    throw Failure(fmt::format("networks of {} are not written as {}",
+                              model->solver == "drp" ? "DRP" : "PPO", form),
                   "json, cpp and onnx are", usage_error);
 }
 

@@ -7,12 +7,14 @@ from typing import Any
 
 import numpy as np
 
-from ..arguments import array_in, whole
+from ..arguments import array_in, shown, whole
 from ..errors import ArgumentError, Error
 from ..model import Fluent
 from ..problems import Problem
 from ..records import Column, columns_of, grounded_view
 from ..states import State
+
+MOST_NESTED = 64  # lists in lists, as NumPy's arrays have dimensions; a list may hold itself
 
 
 class NamedValues:
@@ -76,8 +78,10 @@ class _Entry:
 
     def value(self, given: Any) -> Any:
         """Returns a Python number. Arrays and lists of one element are that element."""
-        if isinstance(given, (list, tuple)) and len(given) == 1:
-            return self.value(given[0])
+        for _ in range(MOST_NESTED):
+            if not isinstance(given, (list, tuple)) or len(given) != 1:
+                break
+            given = given[0]
         if isinstance(given, str):
             return self._index_of(given)
         if isinstance(given, np.ndarray):
@@ -107,7 +111,7 @@ class _Entry:
             what = f"one of {', '.join(self._objects)}, or its index"
         elif np.isfinite([self._lower, self._upper]).any() and self._kind != "bool":
             what += f" from {self._lower:g} to {self._upper:g}"
-        return self._error(f"{self._name} is {given!r}, which is not {what}")
+        return self._error(f"{self._name} is {shown(given)}, which is not {what}")
 
 
 def default_values(problem: Problem, fluents: list[Fluent]) -> list[Any]:
