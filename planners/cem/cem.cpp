@@ -20,19 +20,22 @@ std::size_t scenarios_of(const rddl_problem& problem, const CemOptions& options)
     return problem.stochastic ? 4 : 1;
 }
 
-// So many that some populations fit into the budget, and into memory.
+// So many that some populations fit into the budget, and into memory, beside the part of both that
+// near plans take.
 std::size_t population_of(const PlannerContext& context, const CemOptions& options,
-                          std::size_t scenarios) {
+                          std::size_t scenarios, double near_part) {
     constexpr std::int64_t least_populations = 5, least = 16;
     const auto lanes = static_cast<std::int64_t>(scenarios);
     const std::int64_t each = solvers::bytes_per_environment(context.simulator) * lanes;
-    std::int64_t population = std::min<std::int64_t>(
-        options.population, std::max<std::int64_t>(1, context.memory_limit / 4 / each));
+    const std::int64_t memory = NearSearch::rest(near_part, context.memory_limit);
+    std::int64_t population =
+        std::min<std::int64_t>(options.population, std::max<std::int64_t>(1, memory / 4 / each));
     if (options.budget.steps) {
         const std::int64_t row = options.horizon.value_or(first_horizon) * lanes;
         population = std::min(population,
                               std::max(least, *options.budget.steps / (least_populations * row)));
-        population = std::min(population, std::max<std::int64_t>(1, *options.budget.steps / lanes));
+        const std::int64_t steps = NearSearch::rest(near_part, *options.budget.steps);
+        population = std::min(population, std::max<std::int64_t>(1, steps / lanes));
     }
     return static_cast<std::size_t>(population);
 }
@@ -49,13 +52,15 @@ Cem::Cem(const PlannerContext& context, const CemOptions& options)
     : simulator_(context.simulator),
       options_(options),
       batch_horizon_(context.horizon),
-      memory_limit_(context.memory_limit),
       space_(solvers::action_space(simulator_)),
+      near_part_(NearSearch::part_of(options, space_)),
+      memory_limit_(NearSearch::rest(near_part_, context.memory_limit)),
       records_(simulator_),
       scenarios_(affordable(scenarios_of(*simulator_.problem, options), options.budget)),
       lanes_(0),
       futures_(simulator_,
-               static_cast<std::int64_t>(scenarios_ * population_of(context, options, scenarios_)),
+               static_cast<std::int64_t>(scenarios_ *
+                                         population_of(context, options, scenarios_, near_part_)),
                context.horizon),
       legal_(simulator_, space_, records_, futures_.count()),
       memories_(context.environments),
@@ -79,8 +84,7 @@ Cem::Cem(const PlannerContext& context, const CemOptions& options)
 
     near_numbers_ = default_numbers_;
     near_indices_ = default_indices_;
-    if (const double part = NearSearch::part_of(options_, space_); part > 0)
-        near_.emplace(context, options_, part);
+    if (near_part_ > 0) near_.emplace(context, options_, near_part_);
 
     origins_.resize(population_);
     values_.resize(population_);

@@ -95,8 +95,10 @@ class Cem : public Planner {
 
     const rddl_simulator& simulator_;
     CemOptions options_;
-    std::int64_t batch_horizon_, memory_limit_;  // as in PlannerContext
+    std::int64_t batch_horizon_;  // as in PlannerContext
     solvers::ActionSpace space_;
+    double near_part_;           // of the budget and of the memory, for near plans
+    std::int64_t memory_limit_;  // of all others
     solvers::ActionRecords records_;
     std::size_t population_, scenarios_, lanes_;
     Futures futures_;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 
 namespace rddlc::planners {
 
@@ -23,7 +24,7 @@ double count_of_actions(const solvers::ActionSpace& space) {
 }
 
 CemOptions near_options(CemOptions options, double part) {
-    options.horizon = near_horizon;
+    options.horizon = std::min<std::int64_t>(near_horizon, options.horizon.value_or(near_horizon));
     options.near = 0;
     options.policy.clear();
     options.tail = Tail::Policy;
@@ -32,29 +33,40 @@ CemOptions near_options(CemOptions options, double part) {
     Budget& budget = options.budget;
     if (!budget.seconds && !budget.steps && !budget.iterations) budget.seconds = default_seconds;
     if (budget.seconds) *budget.seconds *= part;
-    if (budget.steps)
-        *budget.steps = std::max<std::int64_t>(
-            1, static_cast<std::int64_t>(part * static_cast<double>(*budget.steps)));
+    if (budget.steps) budget.steps = NearSearch::share(part, *budget.steps);
+    if (budget.iterations) budget.iterations = NearSearch::share(part, *budget.iterations);
     return options;
 }
 
 PlannerContext near_context(PlannerContext context, double part) {
     context.base.reset();
-    context.memory_limit =
-        static_cast<std::int64_t>(part * static_cast<double>(context.memory_limit));
+    context.memory_limit = NearSearch::share(part, context.memory_limit);
     return context;
 }
 
-}  // namespace
-
-double NearSearch::part_of(const CemOptions& options, const solvers::ActionSpace& space) {
+// Of a user who does not say.
+double usual_part_of(const CemOptions& options, const solvers::ActionSpace& space) {
     constexpr std::int64_t least_steps = 1000;
     if (options.budget.steps && *options.budget.steps < least_steps) return 0;
-    if (options.near) return *options.near;
     const bool looks_further = !options.horizon || *options.horizon > near_horizon;
     return looks_further && space.reals.empty() && count_of_actions(space) > many_actions
                ? usual_part
                : 0;
+}
+
+}  // namespace
+
+std::int64_t NearSearch::share(double part, std::int64_t whole) {
+    return static_cast<std::int64_t>(part * static_cast<double>(whole));
+}
+
+double NearSearch::part_of(const CemOptions& options, const solvers::ActionSpace& space) {
+    const double part = options.near ? *options.near : usual_part_of(options, space);
+    const auto is_too_little = [part](const std::optional<std::int64_t>& limit) {
+        return limit && share(part, *limit) == 0;
+    };
+    return is_too_little(options.budget.steps) || is_too_little(options.budget.iterations) ? 0
+                                                                                           : part;
 }
 
 NearSearch::NearSearch(const PlannerContext& context, const CemOptions& options, double part)
@@ -67,6 +79,7 @@ const std::byte* NearSearch::run(const DecisionPoint& point, BudgetMeter& meter)
     Explanation explanation;
     search_->decide(point, action_.data(), &explanation);
     meter.add_steps(explanation.steps);
+    meter.add_iterations(explanation.iterations);
     return action_.data();
 }
 

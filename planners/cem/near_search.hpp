@@ -8,6 +8,7 @@
 #include "solvers/spaces/actions.hpp"
 
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <vector>
 
@@ -17,14 +18,19 @@ class Cem;
 
 class NearSearch {
   public:
-    // The part of the budget that it takes, by the options and the actions; 0: none.
+    // The part of the budget and of the memory that it takes, by the options and the actions; 0:
+    // none, also where that would be less than one step or one iteration.
     static double part_of(const CemOptions& options, const solvers::ActionSpace& space);
 
-    // It takes that part of the budget and of the memory.
+    // So much of the whole, and what remains of it for all other plans.
+    static std::int64_t share(double part, std::int64_t whole);
+    static std::int64_t rest(double part, std::int64_t whole) { return whole - share(part, whole); }
+
+    // It takes that part of both.
     NearSearch(const PlannerContext& context, const CemOptions& options, double part);
     ~NearSearch();
 
-    // The action record that begins the best plan. The steps count in `meter`.
+    // The action record that begins the best plan. Its steps and iterations count in `meter`.
     const std::byte* run(const DecisionPoint& point, BudgetMeter& meter);
 
   private:

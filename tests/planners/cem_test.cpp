@@ -76,6 +76,34 @@ TEST(Cem, LooksNear) {
     for (const auto& [place, explanation] : plan.explanation) EXPECT_LE(explanation.steps, 2000);
 }
 
+// That holds for each budget, for memory, and for few steps where the user asks for it.
+TEST(Cem, LooksNearWithinItsPart) {
+    const auto thought = [](const std::string& options,
+                            std::int64_t memory_limit = default_memory_limit) {
+        return run(network(), "plan:cem," + options, 1, 1, 0, {}, memory_limit).thought(0, 0);
+    };
+    const auto has_near = [](const Explanation& explanation) {
+        return std::ranges::any_of(explanation.candidates,
+                                   [](const auto& c) { return c.name == "near"; });
+    };
+    for (const std::string steps : {"16", "40", "500"}) {
+        SCOPED_TRACE(steps);
+        const Explanation explanation = thought("horizon=4,near=0.5,steps=" + steps);
+        EXPECT_LE(explanation.steps, std::stoll(steps));
+        EXPECT_TRUE(has_near(explanation));
+    }
+    EXPECT_LE(thought("near=0.5,steps=1").steps, 1);
+    const Explanation three = thought("near=0.5,iterations=3");
+    EXPECT_TRUE(has_near(three));
+    EXPECT_EQ(three.iterations, 3);
+    EXPECT_FALSE(has_near(thought("near=0.5,iterations=1")));
+    // Each population of 256 plays one step, that of near plans with one draw of luck.
+    EXPECT_EQ(thought("near=0.5,horizon=1,iterations=2").steps, 2 * (1024 + 256));
+    constexpr std::int64_t little = 1 << 17;
+    EXPECT_LT(thought("near=0.5,iterations=2", little).steps,
+              thought("near=0,iterations=1", little).steps);
+}
+
 // A population of one plan, which is `drawn`.
 Population draw_one(const solvers::ActionSpace& space, Distribution& distribution,
                     double correlation, Plan& drawn) {

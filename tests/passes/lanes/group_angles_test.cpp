@@ -36,10 +36,11 @@ TEST(GroupAngles, LeavesAnglesOfAngles) {
     passes::Report report;
     const std::string text = step_text(valid(passes::group_angles(
         grounded_turns("cos[sin[x]] * sin[x]", "cos[y] - sin[y + turn]"), report)));
-    EXPECT_NE(text.find("together(sin(state.x), cos(state.y), sin(state.y + action.turn))"),
-              std::string::npos)
+    EXPECT_NE(
+        text.find("together(cos(state.x), sin(state.x), cos(state.y), sin(state.y + action.turn))"),
+        std::string::npos)
         << text;
-    EXPECT_NE(text.find("cos(scratch.angles[0]) * scratch.angles[0]"), std::string::npos) << text;
+    EXPECT_NE(text.find("cos(scratch.angles[1]) * scratch.angles[1]"), std::string::npos) << text;
 }
 
 TEST(GroupAngles, LeavesTooFewAngles) {
