@@ -44,7 +44,7 @@ PlannerContext near_context(PlannerContext context, double part) {
     return context;
 }
 
-// Of a user who does not say.
+// The part where the user gives none.
 double usual_part_of(const CemOptions& options, const solvers::ActionSpace& space) {
     constexpr std::int64_t least_steps = 1000;
     if (options.budget.steps && *options.budget.steps < least_steps) return 0;
