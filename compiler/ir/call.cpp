@@ -84,6 +84,11 @@ std::span<const std::int64_t> axes_of(const Program& program, const TableView& v
     return std::span(program[view.buffer].shape).subspan(view.indices.size());
 }
 
+bool is_sine_or_cosine(const Node& node) {
+    const auto* apply = std::get_if<Apply>(&node.form);
+    return apply && (apply->op == Operator::Sin || apply->op == Operator::Cos);
+}
+
 bool is_known_before(const Program& program, NodeId id, const std::set<BufferId>& filled) {
     const Node& node = program[id];
     const auto buffer = buffer_read_by(node);

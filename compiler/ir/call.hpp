@@ -45,6 +45,8 @@ std::vector<BufferId> written_buffers(const Call& call);
 // The buffers that the stores and calls of a block change, those of nested loops included.
 std::set<BufferId> written_buffers(const Block& block);
 bool overwrites_inputs(const Callee& callee);
+// Whether it is a function that Together computes.
+bool is_sine_or_cosine(const Node& node);
 // Whether a value can be computed before a block that fills these buffers: it neither reads one nor
 // is made of a local value.
 bool is_known_before(const Program& program, NodeId id, const std::set<BufferId>& filled);

@@ -79,6 +79,11 @@ bool ends_with(const Program& program, const std::vector<NodeId>& indices, const
            are_indices_of(program, nest, std::span(indices).last(nest.variables.size()));
 }
 
+bool are_variables_of(const Program& program, const std::vector<NodeId>& indices,
+                      const Nest& nest) {
+    return indices.size() == nest.variables.size() && begins_with(program, indices, nest);
+}
+
 bool is_same_for_all(const Properties& properties, const Nest& nest) {
     return properties.uniform && !depends_on_any(properties, nest.variables);
 }

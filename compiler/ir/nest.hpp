@@ -37,6 +37,8 @@ bool is_place_in(const Program& program, const Nest& nest, NodeId id);
 bool begins_with(const Program& program, const std::vector<NodeId>& indices, const Nest& nest);
 // The last ones are.
 bool ends_with(const Program& program, const std::vector<NodeId>& indices, const Nest& nest);
+// They are the variables of the nest, and no others: the element of its objects.
+bool are_variables_of(const Program& program, const std::vector<NodeId>& indices, const Nest& nest);
 // Equal in all iterations of the nest, and in all environments.
 bool is_same_for_all(const Properties& properties, const Nest& nest);
 

@@ -184,6 +184,14 @@ NodeId replace_in(Builder& builder, NodeId id, std::map<NodeId, NodeId>& known, 
     return known[id] = builder.rebuild(node);
 }
 
+NodeId conjunction_of(Builder& builder, const std::vector<NodeId>& parts) {
+    if (parts.empty()) return builder.constant(true);
+    NodeId all = parts.front();
+    for (std::size_t k = 1; k < parts.size(); ++k)
+        all = builder.apply(Operator::And, {all, parts[k]});
+    return all;
+}
+
 Program collect_garbage(Program program) {
     const auto is_clean = [&] {
         const std::vector<bool> reachable = reachable_nodes(program);

@@ -24,6 +24,10 @@ NodeId replace_in(Builder& builder, NodeId id, std::map<NodeId, NodeId>& known);
 // with replacements in its operands. So the outermost nodes with a replacement are replaced.
 using Find = std::function<std::optional<NodeId>(NodeId)>;
 NodeId replace_in(Builder& builder, NodeId id, std::map<NodeId, NodeId>& known, const Find& find);
+// All parts joined by And, from the first to the last; true without any. The reverse of
+// conjuncts_of (analysis.hpp).
+NodeId conjunction_of(Builder& builder, const std::vector<NodeId>& parts);
+
 // Drops unreachable nodes.
 Program collect_garbage(Program program);
 

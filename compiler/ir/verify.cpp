@@ -673,8 +673,7 @@ class Verifier {
     // Sines and cosines, as many as the vector has elements.
     bool are_together(const Call& form) const {
         const auto is_function = [&](NodeId id) {
-            const auto* apply = std::get_if<Apply>(&program_[id].form);
-            return apply && (apply->op == Operator::Sin || apply->op == Operator::Cos);
+            return is_sine_or_cosine(program_[id]);
         };
         const Buffer& output = program_[form.output.buffer];
         return form.inputs.empty() && form.output.indices.empty() &&

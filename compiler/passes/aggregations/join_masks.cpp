@@ -85,10 +85,8 @@ class Joining {
     }
 
     bool is_stored_in_order(const ir::Store& store, const Variables& variables) const {
-        const ir::Nest nest{variables, nullptr};
         return program_[store.target].scalar == ir::Scalar::Bool &&
-               store.indices.size() == variables.size() &&
-               ir::begins_with(program_, store.indices, nest);
+               ir::are_variables_of(program_, store.indices, {variables, nullptr});
     }
 
     // ------------------------------------------------------------------------------ finding

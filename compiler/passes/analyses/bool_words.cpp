@@ -31,8 +31,7 @@ bool is_constant_probability(const ir::Program& program, ir::NodeId id, const ir
         return is_probability(constant->value);
     const auto* load = std::get_if<ir::Load>(&program[id].form);
     return load && program[load->buffer].storage == ir::Storage::Constant &&
-           load->indices.size() == nest.variables.size() &&
-           ir::begins_with(program, load->indices, nest) &&
+           ir::are_variables_of(program, load->indices, nest) &&
            program[load->buffer].values.all_of(is_probability);
 }
 

@@ -103,8 +103,7 @@ bool ObjectLanes::can_index(ir::BufferId buffer, const std::vector<ir::NodeId>& 
 bool ObjectLanes::is_at_own_place(const ir::Element& element) const {
     const auto* places = std::get_if<ir::Load>(&program_[element.place].form);
     return places && program_[places->buffer].holds_places &&
-           places->indices.size() == nest_.variables.size() &&
-           ir::begins_with(program_, places->indices, nest_);
+           ir::are_variables_of(program_, places->indices, nest_);
 }
 
 // Axes of a single object before those of the nest change no place.

@@ -82,8 +82,7 @@ class RootComparison {
 
     std::optional<ir::BufferId> squares_of(const ir::Buffer& limits) {
         ir::Buffer squares = limits;
-        squares.name +=
-            op_ == Operator::Less || op_ == Operator::GreaterEqual ? "-squares" : "-most-squares";
+        squares.name += compares_with_least() ? "-squares" : "-most-squares";
         std::vector<ir::Value> values;
         for (std::int64_t i = 0; i < limits.count(); ++i) {
             const double value = std::get<double>(limits.values[static_cast<std::size_t>(i)]);
@@ -98,11 +97,15 @@ class RootComparison {
         return limit >= least_limit && limit <= greatest_limit;
     }
 
+    // The comparison changes at the least number whose root reaches the limit.
+    bool compares_with_least() const {
+        return op_ == Operator::Less || op_ == Operator::GreaterEqual;
+    }
+
     double square(double limit) const {
-        const bool is_least = op_ == Operator::Less || op_ == Operator::GreaterEqual;
         if (program().real == RealType::Float)
-            return double{limit_of_square(static_cast<float>(limit), is_least)};
-        return limit_of_square(limit, is_least);
+            return double{limit_of_square(static_cast<float>(limit), compares_with_least())};
+        return limit_of_square(limit, compares_with_least());
     }
 
     const ir::Program& program() const { return builder_.program(); }

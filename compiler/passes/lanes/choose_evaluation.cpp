@@ -88,9 +88,8 @@ class Gathering {
             return std::get<double>(p) > 0 && std::get<double>(p) < 1;
         };
         return load.gather == ir::Gather::None && is_constant(load.buffer) &&
-               load.indices.size() == nest.variables.size() &&
-               ir::begins_with(program_, load.indices, nest) && table.count() <= most_chances &&
-               !table.values.all_of(is_random);
+               ir::are_variables_of(program_, load.indices, nest) &&
+               table.count() <= most_chances && !table.values.all_of(is_random);
     }
 
     ir::Gather gather_of(const ir::Load& load, const ir::Nest& nest) const {
@@ -113,8 +112,7 @@ class Gathering {
             program_[load.buffer].scalar != ir::Scalar::Real)
             return false;
         const auto are_objects = [&](const std::vector<ir::NodeId>& indices) {
-            return indices.size() == nest.variables.size() &&
-                   ir::begins_with(program_, indices, nest);
+            return ir::are_variables_of(program_, indices, nest);
         };
         const auto* kind = std::get_if<ir::Load>(&program_[load.indices[0]].form);
         return are_objects({load.indices[0]}) ||

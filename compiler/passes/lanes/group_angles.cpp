@@ -54,7 +54,7 @@ class Grouping {
         if (!seen_.insert(id).second) return;
         const ir::Node& node = program_[id];
         const std::vector<ir::NodeId> operands = ir::operands_of(node);
-        if (is_function(node) && is_ready(id, operands.front())) {
+        if (ir::is_sine_or_cosine(node) && is_ready(id, operands.front())) {
             found_.push_back(id);
             angles_.insert(operands.front());
             return;
@@ -63,10 +63,6 @@ class Grouping {
         for (std::size_t k = 0; k < always; ++k) collect(operands[k]);
     }
 
-    static bool is_function(const ir::Node& node) {
-        const auto* apply = std::get_if<ir::Apply>(&node.form);
-        return apply && (apply->op == Operator::Sin || apply->op == Operator::Cos);
-    }
     bool is_ready(ir::NodeId id, ir::NodeId angle) {
         const ir::Properties& properties = builder_.properties(id);
         return properties.free_variables.empty() && !properties.random && !properties.may_fault &&
@@ -76,7 +72,7 @@ class Grouping {
     bool reads_records_alone(ir::NodeId id) const {
         const ir::Node& node = program_[id];
         const auto buffer = ir::buffer_read_by(node);
-        if (is_function(node) || std::holds_alternative<ir::Local>(node.form) ||
+        if (ir::is_sine_or_cosine(node) || std::holds_alternative<ir::Local>(node.form) ||
             (buffer && !is_record(program_[*buffer].storage)))
             return false;
         return std::ranges::all_of(ir::operands_of(node), [&](ir::NodeId operand) {

@@ -99,8 +99,7 @@ class PlaceReading {
         return !load || !is_own(*load);
     }
     bool is_own(const ir::Load& load) const {
-        return load.indices.size() == nest_.variables.size() &&
-               ir::begins_with(program_, load.indices, nest_);
+        return ir::are_variables_of(program_, load.indices, nest_);
     }
 
     // An element of a table of bools that each object chooses.

@@ -19,14 +19,6 @@ bool is_equality_of_reals(const ir::Program& program, ir::NodeId id) {
            program[apply->operands.front()].type == ir::Scalar::Real;
 }
 
-ir::NodeId conjunction(ir::Builder& builder, const std::vector<ir::NodeId>& parts) {
-    if (parts.empty()) return builder.constant(true);
-    ir::NodeId all = parts.front();
-    for (std::size_t k = 1; k < parts.size(); ++k)
-        all = builder.apply(Operator::And, {all, parts[k]});
-    return all;
-}
-
 // An equality that is tested first already: with it, in place of it, what else has to hold.
 std::optional<ir::Select> tested_already(const ir::Program& program, ir::NodeId id) {
     const auto* select = std::get_if<ir::Select>(&program[id].form);
@@ -56,7 +48,7 @@ std::optional<ir::NodeId> tested_first(ir::Builder& builder, ir::NodeId id) {
     std::vector<ir::NodeId> parts = ir::conjuncts_of(builder.program(), id);
     const auto differs = take_equality(builder, parts);
     if (!differs) return std::nullopt;
-    const ir::NodeId rest = conjunction(builder, parts);
+    const ir::NodeId rest = ir::conjunction_of(builder, parts);
     if (builder.properties(rest).cost < worth_a_jump) return std::nullopt;
     return builder.select(*differs, builder.constant(false), rest, ir::Evaluated::MostlyFirst);
 }

@@ -2,10 +2,8 @@
 // over several objects and packs skip them where no lane needs them. The heuristic is that of T.
 // Ball and J. Larus, Branch Prediction for Free, PLDI 1993, section 4 (opcodes).
 //
-//     state.d == 0.0 && X[b] <= maximum(state.x, state.y) && X[b] >= minimum(state.x, state.y)
-//     =>  select mostly first(state.d != 0.0, false,
-//                             X[b] <= maximum(state.x, state.y) && X[b] >= minimum(state.x,
-//                             state.y))
+//     state.d == 0.0 && X[b] <= state.most && X[b] >= state.least
+//     =>  select mostly first(state.d != 0.0, false, X[b] <= state.most && X[b] >= state.least)
 #pragma once
 
 #include "ir/ir.hpp"

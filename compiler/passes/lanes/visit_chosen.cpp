@@ -40,7 +40,7 @@ class Choosing {
         const bool may_be = loop.several_at_once && !loop.as_words && !loop.chosen && store &&
                             program_[store->target].scalar == ir::Scalar::Bool &&
                             are_many(program_, nest) && draws_bernoulli_alone(store->value);
-        if (!may_be || !is_own(store->indices, nest)) return;
+        if (!may_be || !ir::are_variables_of(program_, store->indices, nest)) return;
         std::set<ir::BufferId> choices;
         collect_choices(store->value, nest, choices);
         for (const ir::BufferId few : choices) {
@@ -68,15 +68,11 @@ class Choosing {
         return !others;
     }
 
-    // The element of the objects' own, in a table that has as many.
-    bool is_own(const std::vector<ir::NodeId>& indices, const ir::Nest& nest) const {
-        return indices.size() == nest.variables.size() && ir::begins_with(program_, indices, nest);
-    }
-
     // Tables of the action of which few bools are true.
     void collect_choices(ir::NodeId id, const ir::Nest& nest, std::set<ir::BufferId>& choices) {
         const auto* load = std::get_if<ir::Load>(&program_[id].form);
-        if (load && is_own(load->indices, nest) && is_few(program_[load->buffer]))
+        if (load && ir::are_variables_of(program_, load->indices, nest) &&
+            is_few(program_[load->buffer]))
             choices.insert(load->buffer);
         for (const ir::NodeId operand : ir::operands_of(program_[id]))
             collect_choices(operand, nest, choices);
@@ -98,13 +94,14 @@ class Choosing {
         const ir::NodeId rest =
             ir::replace_in(builder_, value, known, [&](ir::NodeId id) -> std::optional<ir::NodeId> {
                 const auto* load = std::get_if<ir::Load>(&program_[id].form);
-                if (!load || load->buffer != few || !is_own(load->indices, nest))
+                if (!load || load->buffer != few ||
+                    !ir::are_variables_of(program_, load->indices, nest))
                     return std::nullopt;
                 return builder_.constant(false);
             });
         const auto* kept = std::get_if<ir::Load>(&program_[rest].form);
         if (!kept || program_[kept->buffer].storage != ir::Storage::State ||
-            !is_own(kept->indices, nest))
+            !ir::are_variables_of(program_, kept->indices, nest))
             return std::nullopt;
         return kept->buffer;
     }
