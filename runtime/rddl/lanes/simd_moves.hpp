@@ -230,8 +230,7 @@ template <int count>
 #endif
     return __builtin_popcount(mask);
 }
-// Loads the lanes where the mask holds from there; the others are those of `rest`. Returns how many
-// it has loaded.
+// Loads the lanes where the mask holds from there; the others stay. Returns how many it has loaded.
 [[gnu::always_inline]] inline int load_chosen(MaskBits mask, const double* from, Reals& target) {
 #ifdef RDDL_SIMD_AVX512
     const auto bits = static_cast<__mmask8>(mask);

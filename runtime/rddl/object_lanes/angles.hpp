@@ -74,13 +74,19 @@ RDDL_INLINE Lanes<double, n> sines_and_cosines(const Lanes<double, n>& a, Mask<n
     return select(is_sine && absolute(a) < 0x1p-27, a, result);
 }
 
+template <class Real, std::size_t count, class... Functions>
+RDDL_INLINE void evaluate_one_by_one(std::array<Real, count>& values,
+                                     const Functions&... functions) {
+    std::size_t k = 0;
+    ((values[k++] = value_of(functions)), ...);
+}
+
 }  // namespace detail
 
 // Fills the vector with the values of the functions.
 template <class Real, std::size_t count, class... Functions>
 RDDL_INLINE void evaluate_together(std::array<Real, count>& values, const Functions&... functions) {
-    std::size_t k = 0;
-    ((values[k++] = detail::value_of(functions)), ...);
+    detail::evaluate_one_by_one(values, functions...);
 }
 template <std::size_t count, class... Functions>
 RDDL_INLINE void evaluate_together(std::array<double, count>& values,
@@ -94,11 +100,8 @@ RDDL_INLINE void evaluate_together(std::array<double, count>& values,
         return bits;
     }();
     const auto angles = detail::lanes_of_values<n>(std::array<double, n>{functions.angle...});
-    if (any(absolute(angles) > detail::greatest_angle)) [[unlikely]] {
-        std::size_t k = 0;
-        ((values[k++] = detail::value_of(functions)), ...);
-        return;
-    }
+    if (any(absolute(angles) > detail::greatest_angle)) [[unlikely]]
+        return detail::evaluate_one_by_one(values, functions...);
     const auto results = detail::sines_and_cosines(angles, Mask<n>::of_bits(sines));
     std::array<double, n> all;
     results.store(all.data());

@@ -30,17 +30,6 @@ template <const auto& table>
 inline constexpr std::size_t count_of =
     static_cast<std::size_t>(element_count<std::remove_cvref_t<decltype(table)>>);
 
-// The probability of an object, by its place in row-major order.
-template <class R>
-constexpr R real_at(const R& number, std::size_t) {
-    return number;
-}
-template <class T, std::size_t n>
-constexpr auto real_at(const std::array<T, n>& table, std::size_t i) {
-    constexpr auto count = static_cast<std::size_t>(element_count<T>);
-    return real_at(table[i / count], i % count);
-}
-
 template <class R>
 constexpr bool is_certain(R p) {
     return p <= 0 || p >= 1;
@@ -49,7 +38,7 @@ constexpr bool is_certain(R p) {
 template <const auto& table>
 inline constexpr bool has_certain_chances = [] {
     for (std::size_t i = 0; i < count_of<table>; ++i)
-        if (is_certain(real_at(table, i))) return true;
+        if (is_certain(element_at(table, i))) return true;
     return false;
 }();
 
@@ -63,7 +52,7 @@ struct RandomPairs {
 
     static constexpr bool is_random(std::size_t pair) {
         const auto draws = [](std::size_t i) {
-            return i < count && !is_certain(real_at(table, i));
+            return i < count && !is_certain(element_at(table, i));
         };
         return draws(2 * pair) || draws(2 * pair + 1);
     }
@@ -105,8 +94,8 @@ struct RandomPairs {
             Register& some = all[next / lanes];
             const std::size_t lane = next++ % lanes;
             some.pairs[lane] = pair;
-            some.even[lane] = real_at(table, 2 * pair);
-            if (2 * pair + 1 < count) some.odd[lane] = real_at(table, 2 * pair + 1);
+            some.even[lane] = element_at(table, 2 * pair);
+            if (2 * pair + 1 < count) some.odd[lane] = element_at(table, 2 * pair + 1);
             Part& part = some.parts[pair / 32];
             if ((part.even | part.odd) == 0) part.lane = static_cast<int>(lane);
             part.even |= std::uint64_t{1} << 2 * pair % 64;
@@ -118,7 +107,7 @@ struct RandomPairs {
     static constexpr std::array<std::uint64_t, words> always = [] {
         std::array<std::uint64_t, words> all{};
         for (std::size_t i = 0; i < count; ++i)
-            all[i / 64] |= std::uint64_t{real_at(table, i) >= 1} << i % 64;
+            all[i / 64] |= std::uint64_t{element_at(table, i) >= 1} << i % 64;
         return all;
     }();
 };
@@ -174,18 +163,12 @@ RDDL_INLINE auto chances(const SomeObjects<n>& objects) {
 
 namespace sample {
 
-template <class R, bool some_are_certain>
-RDDL_INLINE bool valid_bernoulli(Context<ScalarOf<R>>& context, Place place,
-                                 Chance<R, some_are_certain> p) {
+// For one environment, and for packs that take one object after the other.
+template <class L, class R, bool some_are_certain>
+RDDL_INLINE typename L::Bool valid_bernoulli(Context<L>& context, Place place,
+                                             Chance<R, some_are_certain> p) {
     if (some_are_certain && detail::is_certain(p.value)) return p.value > 0;
-    return uniform_at(context, place) < p.value;
-}
-// Packs that take one object after the other.
-template <int n, class R, bool some_are_certain>
-RDDL_INLINE Mask<n> valid_bernoulli(Context<Pack<n, R>>& context, Place place,
-                                    Chance<R, some_are_certain> p) {
-    if (some_are_certain && detail::is_certain(p.value)) return p.value > 0;
-    return uniform_at(context, place) < Lanes<R, n>{p.value};
+    return uniform_at(context, place) < typename L::Real{p.value};
 }
 
 }  // namespace sample

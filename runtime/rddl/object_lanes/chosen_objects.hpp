@@ -94,17 +94,12 @@ RDDL_INLINE void for_chosen_objects(Context<ScalarOf<R>>& context, const Choices
                                     const Table& kept, Table& target, Body&& body) {
     constexpr int most_chosen = static_cast<int>(count / 8);
     const auto chosen = action_words_of(choices);
-    int chosen_count = 0;
-    for (const std::uint64_t bits : chosen) chosen_count += __builtin_popcountll(bits);
-    if (chosen_count > most_chosen) return for_each_object<count>(context, body);
+    if (detail::count_ones_of(chosen) > most_chosen) return for_each_object<count>(context, body);
     auto words = words_of(kept);
     Context<ChosenOf<R>> of_chosen{context};
-    Index first = 0;
-    for (std::uint64_t bits : chosen) {
-        for (; bits != 0; bits &= bits - 1)
-            body(of_chosen, ChosenObject{{first + __builtin_ctzll(bits)}, words.data()});
-        first += 64;
-    }
+    detail::for_each_one(chosen, [&](Index i) RDDL_INLINE_LAMBDA {
+        body(of_chosen, ChosenObject{{i}, words.data()});
+    });
     detail::store_words(words.data(), target);
 }
 

@@ -233,23 +233,12 @@ struct PlaceLine {
 
 namespace many_bools {
 
-// Element i of nested arrays, in row-major order.
-template <class T>
-constexpr std::int64_t element_of(const T& number, std::size_t) {
-    return static_cast<std::int64_t>(number);
-}
-template <class T, std::size_t n>
-constexpr std::int64_t element_of(const std::array<T, n>& table, std::size_t i) {
-    constexpr auto count = static_cast<std::size_t>(rddl::detail::element_count<T>);
-    return element_of(table[i / count], i % count);
-}
-
 template <class Places>
 constexpr PlaceLine line_of(const Places& places, std::size_t begin, std::size_t end) {
-    const std::int64_t first = element_of(places, begin);
+    const std::int64_t first = rddl::detail::element_at(places, begin);
     bool are_equal = true, are_consecutive = true;
     for (std::size_t i = begin; i < end; ++i) {
-        const std::int64_t place = element_of(places, i);
+        const std::int64_t place = rddl::detail::element_at(places, i);
         are_equal &= place == first;
         are_consecutive &= place == first + static_cast<std::int64_t>(i - begin);
     }

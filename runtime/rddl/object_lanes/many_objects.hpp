@@ -324,19 +324,12 @@ RDDL_INLINE void for_affected_objects(Context<ScalarOf<R>>& context, const Few& 
     assign(target, false);
     if (!is_any_true(few)) return;
     const auto words = words_of(few);
-    int true_count = 0;
-    for (const std::uint64_t bits : words) true_count += __builtin_popcountll(bits);
-    if (true_count > most_true) return for_many_objects<count>(context, body);
-    Index first = 0;
-    for (std::uint64_t bits : words) {
-        for (; bits != 0; bits &= bits - 1) {
-            const Index i = first + __builtin_ctzll(bits);
-            for (Index entry = rows[static_cast<std::size_t>(i)];
-                 entry < rows[static_cast<std::size_t>(i) + 1]; ++entry)
-                body(context, OneObject{objects[static_cast<std::size_t>(entry)]});
-        }
-        first += 64;
-    }
+    if (detail::count_ones_of(words) > most_true) return for_many_objects<count>(context, body);
+    detail::for_each_one(words, [&](Index i) RDDL_INLINE_LAMBDA {
+        for (Index entry = rows[static_cast<std::size_t>(i)];
+             entry < rows[static_cast<std::size_t>(i) + 1]; ++entry)
+            body(context, OneObject{objects[static_cast<std::size_t>(entry)]});
+    });
 }
 
 }  // namespace rddl

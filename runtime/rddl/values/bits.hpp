@@ -34,6 +34,17 @@ constexpr auto first_element(std::array<T, n>& table) {
 template <class T>
 inline constexpr Index element_count = Nested<T>::count;
 
+// Element i of nested arrays, in row-major order, also where compilers evaluate it.
+template <class T>
+constexpr const T& element_at(const T& element, std::size_t) {
+    return element;
+}
+template <class T, std::size_t n>
+constexpr const auto& element_at(const std::array<T, n>& table, std::size_t i) {
+    constexpr auto count = static_cast<std::size_t>(element_count<T>);
+    return element_at(table[i / count], i % count);
+}
+
 // Whether the bools may have been stored just now matters to one environment's (simd.hpp).
 template <int count, bool just_stored>
 std::int64_t bits_of(const bool* bools) {
@@ -98,6 +109,26 @@ template <class Table>
 RDDL_INLINE auto action_words_of(const Table& table) {
     return detail::words<false>(table);
 }
+
+namespace detail {
+
+template <std::size_t n>
+RDDL_INLINE int count_ones_of(const std::array<std::uint64_t, n>& words) {
+    int total = 0;
+    for (const std::uint64_t bits : words) total += __builtin_popcountll(bits);
+    return total;
+}
+// Calls visit(i) for all i whose bit is 1.
+template <std::size_t n, class Visit>
+RDDL_INLINE void for_each_one(const std::array<std::uint64_t, n>& words, Visit&& visit) {
+    Index first = 0;
+    for (std::uint64_t bits : words) {
+        for (; bits != 0; bits &= bits - 1) visit(first + __builtin_ctzll(bits));
+        first += 64;
+    }
+}
+
+}  // namespace detail
 
 // The element of a table of bools that has this place in row-major order.
 template <class Table>

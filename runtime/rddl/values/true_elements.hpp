@@ -112,11 +112,7 @@ RDDL_INLINE const std::array<Mask<width>, n>& true_elements(const std::array<Mas
 // environments.
 template <std::size_t n, class Mark>
 RDDL_INLINE void visit_true(const TrueElements<n>& elements, Mark&& mark) {
-    Index first = 0;
-    for (std::uint64_t bits : elements.words) {
-        for (; bits != 0; bits &= bits - 1) mark(first + __builtin_ctzll(bits), true);
-        first += 64;
-    }
+    detail::for_each_one(elements.words, [&](Index x) RDDL_INLINE_LAMBDA { mark(x, true); });
 }
 template <std::size_t n, int width, class Mark>
 RDDL_INLINE void visit_true(const std::array<Mask<width>, n>& elements, Mark&& mark) {
