@@ -1,5 +1,7 @@
 #include "solvers/cgp/evaluator.hpp"
 
+#include "solvers/evaluation/episodes.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -7,14 +9,11 @@ namespace rddlc::solvers {
 
 namespace {
 
-// The limit for problems without a horizon.
-constexpr std::int64_t longest_episode = 1000;
-
 rddl_batch_options batch_options(const rddl_simulator& simulator, std::int64_t count) {
     rddl_batch_options options{};
     options.environment_count = count;
     options.thread_count = 1;
-    if (simulator.problem->horizon == 0) options.horizon = longest_episode;
+    options.horizon = horizon_of_learners(*simulator.problem).value_or(0);
     return options;
 }
 

@@ -19,8 +19,11 @@
 
 namespace rddlc::solvers {
 
-// Learners end an episode of a problem without a horizon after so many steps.
-inline constexpr std::int64_t horizon_without_one = 1000;
+// Learners end an episode of a problem without a horizon after 1,000 steps. Nothing: the problem
+// has a horizon, which holds.
+inline std::optional<std::int64_t> horizon_of_learners(const rddl_problem& problem) {
+    return problem.horizon == 0 ? std::optional<std::int64_t>(1000) : std::nullopt;
+}
 
 struct EpisodeOptions {
     Preconditions preconditions = Preconditions::Ignore;

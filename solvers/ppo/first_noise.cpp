@@ -23,7 +23,7 @@ double mean_return(const rddl_simulator& simulator, const Policy& policy,
     episodes.seed = options.seed;
     episodes.threads = options.threads;
     episodes.memory_limit = options.memory_limit;
-    if (simulator.problem->horizon == 0) episodes.horizon = horizon_without_one;
+    episodes.horizon = horizon_of_learners(*simulator.problem);
     Watch watch;
     watch.stops = options.stops;
     return summary_of(run_episodes(simulator, policy, episodes, watch)).undiscounted_return.mean;

@@ -197,7 +197,7 @@ class Training {
         EpisodeOptions episodes;
         episodes.episodes = simulator_.problem->stochastic ? options_.evaluation_episodes : 1;
         episodes.seed = options_.seed + 0x65766131;
-        if (simulator_.problem->horizon == 0) episodes.horizon = horizon_without_one;
+        episodes.horizon = horizon_of_learners(*simulator_.problem);
         return episodes;
     }
 

@@ -64,7 +64,7 @@ solvers::Demonstrate demonstrate(const rddl_simulator& simulator, const Imitatio
         solvers::EpisodeOptions episodes;
         episodes.episodes = imitation.episodes;
         episodes.seed = seed + seed_of_episodes;
-        if (simulator.problem->horizon == 0) episodes.horizon = solvers::horizon_without_one;
+        episodes.horizon = solvers::horizon_of_learners(*simulator.problem);
         const solvers::Policy policy =
             policy_named(simulator, imitation.policy, false, episodes.seed, memory_limit, planning);
         return solvers::demonstrations(simulator, model, policy, episodes, stops);
