@@ -249,11 +249,18 @@ Learner ppo(const LoadedProblem& problem, const nb::dict& given) {
     return {problem.simulator, solvers::ppo_trainee(simulator, ppo, {}, shown), stop};
 }
 
-Learner cgp(const LoadedProblem& problem, const nb::dict& given) {
-    solvers::CgpOptions cgp;
+// The options of a learner that takes none but these.
+template <class Options>
+Options options_of(const nb::dict& given, const solvers::OptionTable<Options>& table) {
+    Options options;
     std::vector<solvers::OptionText> known;
-    set_options(cgp_keywords(), given, cgp, known);
+    set_options(table, given, options, known);
     refuse_unknown(given, known);
+    return options;
+}
+
+Learner cgp(const LoadedProblem& problem, const nb::dict& given) {
+    solvers::CgpOptions cgp = options_of(given, cgp_keywords());
     const auto stop = std::make_shared<std::atomic<bool>>(false);
     cgp.stops = asks(stop);
     const nb::gil_scoped_release released;
@@ -261,10 +268,7 @@ Learner cgp(const LoadedProblem& problem, const nb::dict& given) {
 }
 
 Learner drp(const LoadedProblem& problem, const nb::dict& given) {
-    solvers::DrpOptions drp;
-    std::vector<solvers::OptionText> known;
-    set_options(drp_keywords(), given, drp, known);
-    refuse_unknown(given, known);
+    solvers::DrpOptions drp = options_of(given, drp_keywords());
     const auto stop = std::make_shared<std::atomic<bool>>(false);
     drp.stops = asks(stop);
     const nb::gil_scoped_release released;
