@@ -317,7 +317,7 @@ const std::byte* Cem::first_action(std::size_t plan) const {
 
 void Cem::decide(const DecisionPoint& point, std::byte* action, Explanation* explanation) {
     RandomStream stream(options_.seed, point.episode, point.step);
-    BudgetMeter meter(options_.budget, point.stops);
+    BudgetMeter meter(options_.budget, point.stops, point.share, point.steps_spent);
     Memory& memory = memory_of(point);
     const bool compares = simulator_.problem->stochastic || base_;
     const auto lanes = static_cast<std::int64_t>(lanes_);
