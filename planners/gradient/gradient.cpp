@@ -15,7 +15,7 @@ namespace rddlc::planners {
 
 namespace {
 
-constexpr std::int64_t default_horizon = 40;
+constexpr std::int64_t default_horizon = 40, least_horizon = 5;
 // Bools change if they are likelier to than this; the second one is for where several share what is
 // allowed for one.
 constexpr std::array thresholds{0.5, 0.2};
@@ -59,6 +59,20 @@ std::vector<std::unique_ptr<solvers::StepDerivatives>> derivatives_of(
     return derivatives;
 }
 
+// Where steps are few, short plans that go up some gradients are better than long ones that hardly
+// move.
+std::int64_t horizon_of(const PlannerContext& context, const GradientOptions& options,
+                        std::size_t relaxations) {
+    if (options.horizon || !options.budget.steps) return options.horizon.value_or(default_horizon);
+    constexpr std::size_t least_ascents = 10;
+    const GradientPopulation population = usual_population(context, options);
+    const std::size_t plans = relaxations * population.plans;
+    const std::size_t scenarios = scenarios_of(*context.simulator.problem, options);
+    const auto each = static_cast<std::int64_t>(least_ascents * plans * scenarios +
+                                                population.draws * (plans * thresholds.size() + 2));
+    return std::clamp(*options.budget.steps / each, least_horizon, default_horizon);
+}
+
 }  // namespace
 
 Gradient::Gradient(const PlannerContext& context, const GradientOptions& options)
@@ -68,7 +82,7 @@ Gradient::Gradient(const PlannerContext& context, const GradientOptions& options
       records_(simulator_),
       parameters_(simulator_, space_),
       derivatives_(derivatives_of(context, options)),
-      horizon_(options.horizon.value_or(default_horizon)),
+      horizon_(horizon_of(context, options, derivatives_.size())),
       population_(population_of(context, options, horizon_, derivatives_, thresholds.size())),
       plans_(population_.plans * derivatives_.size()),
       scenarios_(scenarios_of(*simulator_.problem, options)),
