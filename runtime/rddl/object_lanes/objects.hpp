@@ -260,26 +260,6 @@ RDDL_INLINE auto exists(const Context<L>&, IndexRange range, Body&& body) {
 
 // ------------------------------------------------------------------------------------ loops
 
-// Calls body(context, object) for [0, count): for a context of these objects.
-namespace detail {
-
-template <int n, class R, class Body>
-RDDL_INLINE void for_each_of_several(Context<ScalarOf<R>>& context, Index count, Body&& body) {
-    const StepDraws draws(context);
-    const auto some_at = [&](Index first, int some_count) RDDL_INLINE_LAMBDA {
-        const SomeObjects<n> objects{first, some_count};
-        Context<Objects<n, R>> some{draws, objects.mask()};
-        body(some, objects);
-        if (some.fault && !context.fault) context.fault = some.fault;
-    };
-    // Two calls let compilers know how many objects there are in each.
-    const Index full = count / n * n;
-    for (Index first = 0; first < full; first += n) some_at(first, n);
-    if (full < count) some_at(full, static_cast<int>(count - full));
-}
-
-}  // namespace detail
-
 // One or two registers of doubles with AVX-512: no more than the objects need.
 inline constexpr int objects_at_once = 16;
 template <Index count, class R>
@@ -287,13 +267,39 @@ inline constexpr int objects_of_loop = count <= objects_at_once / 2
                                            ? std::max(objects_at_once / 2, simd::lanes_of<R>)
                                            : objects_at_once;
 
+namespace detail {
+
+template <int n, class R, class Body>
+RDDL_INLINE void for_some(Context<ScalarOf<R>>& context, const StepDraws& draws,
+                          const SomeObjects<n>& objects, Body& body) {
+    Context<Objects<n, R>> some{draws, objects.mask()};
+    body(some, objects);
+    if (some.fault && !context.fault) context.fault = some.fault;
+}
+// Two calls let compilers know how many objects there are in each, and let the last ones take no
+// more registers than they need.
+template <Index count, class R, class Body>
+RDDL_INLINE void for_each_of_several(Context<ScalarOf<R>>& context, Body&& body) {
+    constexpr int n = objects_of_loop<count, R>;
+    constexpr Index full = count / n * n;
+    constexpr int rest = count - full;
+    const StepDraws draws(context);
+    for (Index first = 0; first < full; first += n)
+        for_some(context, draws, SomeObjects<n>{first, n}, body);
+    if constexpr (rest > 0)
+        for_some(context, draws, SomeObjects<objects_of_loop<rest, R>>{full, rest}, body);
+}
+
+}  // namespace detail
+
+// Calls body(context, object) for [0, count): for a context of these objects.
 template <Index count, int n, class R, class Body>
 RDDL_INLINE void for_each_object(Context<Pack<n, R>>& context, Body&& body) {
     for (Index i = 0; i < count; ++i) body(context, OneObject{i});
 }
 template <Index count, class R, class Body>
 RDDL_INLINE void for_each_object(Context<ScalarOf<R>>& context, Body&& body) {
-    detail::for_each_of_several<objects_of_loop<count, R>>(context, count, body);
+    detail::for_each_of_several<count>(context, body);
 }
 
 }  // namespace rddl
