@@ -323,9 +323,8 @@ RDDL_INLINE void for_some(Context<ScalarOf<R>>& context, const StepDraws& draws,
 }
 // Two calls let compilers know how many objects there are in each, and let the last ones take no
 // more registers than they need.
-template <Index count, class R, class Body>
+template <int n, Index count, class R, class Body>
 RDDL_INLINE void for_each_of_several(Context<ScalarOf<R>>& context, Body&& body) {
-    constexpr int n = objects_of_loop<count, R>;
     constexpr Index full = count / n * n;
     constexpr int rest = count - full;
     const StepDraws draws(context);
@@ -345,7 +344,33 @@ RDDL_INLINE void for_each_object(Context<Pack<n, R>>& context, Body&& body) {
 }
 template <Index count, class R, class Body>
 RDDL_INLINE void for_each_object(Context<ScalarOf<R>>& context, Body&& body) {
-    detail::for_each_of_several<count>(context, body);
+    detail::for_each_of_several<objects_of_loop<count, R>, count>(context, body);
+}
+
+// Whether body(context, object), which neither faults nor draws, holds for one object at least of
+// [0, count), or for all. One environment takes a register of reals at once, since masks of several
+// registers have to be joined.
+template <Index count, int n, class R, class Body>
+RDDL_INLINE Mask<n> exists_object(Context<Pack<n, R>>& context, Body&& body) {
+    Mask<n> found{false};
+    for (Index i = 0; i < count; ++i) found = found || body(context, OneObject{i});
+    return found;
+}
+template <Index count, class R, class Body>
+RDDL_INLINE bool exists_object(Context<ScalarOf<R>>& context, Body&& body) {
+    bool found = false;
+    detail::for_each_of_several<objects_of_loop<1, R>, count>(
+        context, [&]<int n>(auto& several, const SomeObjects<n>& objects) RDDL_INLINE_LAMBDA {
+            const Mask<n> holds = body(several, objects);
+            found |= any(holds && objects.mask());
+        });
+    return found;
+}
+template <Index count, class L, class Body>
+RDDL_INLINE auto for_all_objects(Context<L>& context, Body&& body) {
+    return !exists_object<count>(context,
+                                 [&](auto& several, const auto& object)
+                                     RDDL_INLINE_LAMBDA { return !body(several, object); });
 }
 
 }  // namespace rddl

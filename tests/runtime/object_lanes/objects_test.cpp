@@ -428,6 +428,41 @@ TEST(Objects, TellTheFaultOfTheFirstObject) {
     EXPECT_EQ(context.fault.value, -1);
 }
 
+template <Index objects>
+void expect_quantifiers() {
+    std::array<double, static_cast<std::size_t>(objects)> level{};
+    Context<Scalar> context = context_of_step(1);
+    auto packs =
+        Context<Pack<16>>::of(Pack<16>::Word{7}, Pack<16>::Word{9}, Pack<16>::Word{1}, true);
+    const auto expect = [&](bool any, bool all) {
+        const auto is_high = [&](auto&, auto x) {
+            return at(level, x) > 0.0;
+        };
+        EXPECT_EQ(exists_object<objects>(context, is_high), any);
+        EXPECT_EQ(for_all_objects<objects>(context, is_high), all);
+        const auto is_high_in_some = [&](auto&, auto x) {
+            return Lanes<double, 16>(at(level, x)) > 0.0;
+        };
+        EXPECT_EQ(exists_object<objects>(packs, is_high_in_some).bits, any ? 0xFFFF : 0);
+        EXPECT_EQ(for_all_objects<objects>(packs, is_high_in_some).bits, all ? 0xFFFF : 0);
+    };
+    expect(false, false);
+    for (double& each : level) {
+        each = 1;
+        expect(true, objects == 1);
+        each = 0;
+    }
+    level.fill(1);
+    expect(true, true);
+}
+
+TEST(Objects, TellWhetherABoolHoldsForOneOrForAll) {
+    expect_quantifiers<1>();
+    expect_quantifiers<8>();
+    expect_quantifiers<13>();
+    expect_quantifiers<24>();
+}
+
 TEST(Objects, DoNotFaultInBranchesThatTheyDoNotTake) {
     std::array<double, 20> p{};
     p[3] = 2;
