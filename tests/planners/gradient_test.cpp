@@ -312,6 +312,9 @@ TEST(Gradient, ChoosesItsHorizonByTheSteps) {
         return run_gradient(car(), EXAMPLES "/mountain_car", options).thought(0, 0).depth;
     };
     EXPECT_LT(depth_by("steps=2000"), 20);
+    // It is too short to reach the goal, so that no-op is the best, and is doubled.
+    const Played plan = run_gradient(car(), EXAMPLES "/mountain_car", "steps=2000");
+    EXPECT_GE(plan.thought(0, 1).depth, 2 * plan.thought(0, 0).depth);
     EXPECT_EQ(depth_by("steps=2000,horizon=25"), 25);
 }
 
