@@ -140,20 +140,14 @@ def optimum(problem, arguments):
     return {"mean": of["optimum"], "half_width": of["error"], "states": of["states"], "seconds": seconds}
 
 
-def prost(problem, details, arguments):
-    """PROST by the protocol of the competitions; its return is that which the server prints."""
-    name, instance = problem
-    folder = Path(details["folder"])
-    text = (folder / f"instance{instance}.rddl").read_text()
-    instance_name = re.search(r"\binstance\s+(\w+)", text)[1]
-    horizon = int(re.search(r"\bhorizon\s*=\s*(\d+)", text)[1])
+def prost_session(arguments, problem, instance_name, rounds, seconds, engine="IPC2014"):
+    """PROST plays rounds against `rddl serve`: what the server prints, what PROST prints, and its seconds of processor time."""
     with tempfile.TemporaryDirectory() as name_of_folder:
         work = Path(name_of_folder)
         (work / "rddl-parser-release").symlink_to(arguments.prost / "builds/release/rddl_parser/rddl-parser")
-        seconds = arguments.episodes * horizon * arguments.prost_seconds
         with (work / "serve").open("w+") as log:
             server = subprocess.Popen([str(word) for word in (
-                arguments.rddl, "serve", name, instance, "--port", 0, "--rounds", arguments.episodes, "--time", seconds,
+                arguments.rddl, "serve", *problem, "--port", 0, "--rounds", rounds, "--time", seconds,
                 "--seed", arguments.seed + 1000, "--sessions", 1)], stdout=log, stderr=subprocess.STDOUT)
             try:
                 while " at " not in (said := (work / "serve").read_text()):
@@ -161,15 +155,28 @@ def prost(problem, details, arguments):
                         raise Failure(said.strip())
                     time.sleep(0.05)
                 port = said.rsplit(":", 1)[1].split()[0]
-                _, used = run([arguments.prost / "builds/release/search/search", instance_name, "-p", port,
-                               "[PROST -s 1 -tm UNI -se [IPC2014]]"], 2 * seconds + 300, folder=work)
+                management = "NONE" if " -t " in engine else "UNI"  # the engine has a time of its own, or PROST divides that of rounds
+                printed, used = run([arguments.prost / "builds/release/search/search", instance_name, "-p", port,
+                                     f"[PROST -s 1 -tm {management} -se [{engine}]]"], 2 * seconds + 300, folder=work)
                 server.wait(10)
             finally:
                 server.kill()
-        found = re.search(r"return (-?[\d.e+]+)(?: ± ([\d.e+]+))?", (work / "serve").read_text())
-        if not found:
-            raise Failure((work / "serve").read_text().strip().splitlines()[-1])
-        return {"mean": float(found[1]), "half_width": float(found[2] or 0), "episodes": arguments.episodes, "seconds": used}
+        return (work / "serve").read_text(), printed, used
+
+
+def prost(problem, details, arguments):
+    """PROST by the protocol of the competitions; its return is that which the server prints."""
+    name, instance = problem
+    folder = Path(details["folder"])
+    text = (folder / f"instance{instance}.rddl").read_text()
+    instance_name = re.search(r"\binstance\s+(\w+)", text)[1]
+    horizon = int(re.search(r"\bhorizon\s*=\s*(\d+)", text)[1])
+    seconds = arguments.episodes * horizon * arguments.prost_seconds
+    said, _, used = prost_session(arguments, problem, instance_name, arguments.episodes, seconds)
+    found = re.search(r"return (-?[\d.e+]+)(?: ± ([\d.e+]+))?", said)
+    if not found:
+        raise Failure(said.strip().splitlines()[-1])
+    return {"mean": float(found[1]), "half_width": float(found[2] or 0), "episodes": arguments.episodes, "seconds": used}
 
 
 def jaxplan(problem, arguments):

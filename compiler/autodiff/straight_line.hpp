@@ -70,7 +70,8 @@ struct Constant {
 // the order of the record (ir/layout.hpp).
 struct StraightLine {
     std::vector<Instruction> instructions;
-    // Those from this one on compute `over` alone, and are exact also where others are relaxed.
+    // The instructions from this one on compute `over` alone, and are exact also where others are
+    // relaxed.
     std::size_t first_of_end = 0;
     std::vector<Slot> operands;  // of all lists
     std::vector<rddl::Place> places;

@@ -28,7 +28,8 @@ void BasePolicy::begin(std::int64_t episode, std::int64_t step, std::int64_t hor
 // A new actor has nothing in its memory that comes from other futures.
 void BasePolicy::restart(std::int64_t episode, std::int64_t horizon,
                          std::span<const std::uint64_t> numbers) {
-    actor_ = policy_.start(static_cast<std::int64_t>(episodes_.size()));
+    if (!actor_ || !policy_.is_memoryless)
+        actor_ = policy_.start(static_cast<std::int64_t>(episodes_.size()));
     horizon_ = horizon;
     for (std::size_t k = 0; k < episodes_.size(); ++k)  // a recorded plan goes on with its own
         episodes_[k] = policy_.plans > 0 ? episode : static_cast<std::int64_t>(numbers[k] >> 2);

@@ -92,7 +92,8 @@ void TreeAndPlans::play_noop(const DecisionPoint& point) {
     }
 }
 
-// Of several draws of no-op the worst one counts: values of trees are those of the best that came.
+// The worst of several draws of no-op counts, since the values of trees are those of the best that
+// came.
 bool TreeAndPlans::is_fruitless() const {
     const TreeSearch::Found& found = tree_->found();
     if (!found.has_choice) return false;

@@ -9,7 +9,7 @@ namespace rddlc::planners {
 
 class TreeSearch : public Planner {
   public:
-    // What the last decision found.
+    // The result of the last decision.
     struct Found {
         double value = 0;  // of the action that was taken, for `depth` steps; -inf: unknown
         std::int64_t depth = 0;

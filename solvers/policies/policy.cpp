@@ -56,13 +56,16 @@ Policy random_policy(const rddl_simulator& simulator, std::uint64_t seed) {
             actor->act(decision);
         };
     };
-    return {"random", spaces_of(simulator), start};
+    Policy policy{"random", spaces_of(simulator), start};
+    policy.is_memoryless = true;
+    return policy;
 }
 
 Policy noop_policy(const rddl_simulator& simulator) {
     const auto start = [problem = simulator.problem](std::int64_t environments) -> Actor {
         const auto* const action = static_cast<const std::byte*>(problem->default_action);
         std::vector<std::byte> rows;
+        rows.reserve(static_cast<std::size_t>(environments * problem->action_size));
         for (std::int64_t i = 0; i < environments; ++i)
             rows.insert(rows.end(), action, action + problem->action_size);
         return [rows = std::move(rows), size = problem->action_size](Decision& decision) {
@@ -70,7 +73,9 @@ Policy noop_policy(const rddl_simulator& simulator) {
             std::copy_n(rows.data(), count * size, decision.actions);
         };
     };
-    return {"noop", spaces_of(simulator), start};
+    Policy policy{"noop", spaces_of(simulator), start};
+    policy.is_memoryless = true;
+    return policy;
 }
 
 Policy plan_policy(const rddl_simulator& simulator, std::string name,

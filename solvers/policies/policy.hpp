@@ -60,6 +60,8 @@ struct Policy {
     // Its estimates in so many environments; empty where it has none. The policy must outlive them.
     std::function<StateValues(std::int64_t environments)> values = {};
     double value_discount = 1;  // of the rewards that these estimates sum up
+    // Its actors do what their arguments say alone, so that one may go on to other episodes.
+    bool is_memoryless = false;
 };
 
 // Throws a Failure where the policy is of other spaces than those of the simulator.

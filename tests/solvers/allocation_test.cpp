@@ -1,6 +1,11 @@
-// The repeated work of learners allocates nothing.
+// The repeated work of learners and planners allocates nothing.
 #include "../counted_allocations.hpp"
+#include "planners/cem/cem.hpp"
+#include "planners/rollout/rollout.hpp"
+#include "planners/uct/history_search.hpp"
+#include "planners/uct/uct.hpp"
 #include "simulators.hpp"
+#include "solvers/batches/batch.hpp"
 #include "solvers/cgp/evaluator.hpp"
 #include "solvers/cgp/memory_estimate.hpp"
 #include "solvers/ppo/memory_estimate.hpp"
@@ -131,3 +136,66 @@ TEST(Allocations, NoneInEpisodesOfPrograms) {
 
 }  // namespace
 }  // namespace rddlc::solvers
+
+namespace rddlc::planners {
+namespace {
+
+// The allocations of a decision, after others of the same episode and of one before.
+template <class ItsPlanner, class Options>
+std::int64_t allocations_of(const rddl_simulator& simulator, Options options,
+                            std::int64_t iterations, std::int64_t depth) {
+    constexpr std::int64_t horizon = 40;
+    options.budget.iterations = iterations;
+    options.horizon = depth;
+    ItsPlanner planner({.simulator = simulator,
+                        .environments = 1,
+                        .horizon = horizon,
+                        .memory_limit = std::int64_t{1} << 30,
+                        .base = solvers::noop_policy(simulator)},
+                       options);
+    rddl_batch_options batch_options{};
+    batch_options.horizon = horizon;
+    const solvers::BatchHandle batch = solvers::create_batch(simulator, batch_options);
+    const auto* const noop = static_cast<const std::byte*>(simulator.problem->default_action);
+    std::vector<std::byte> action(static_cast<std::size_t>(simulator.problem->action_size));
+    std::int64_t made = 0;
+    for (const std::int64_t episode : {0, 1})
+        for (std::int64_t step = 0; step < 2; ++step) {
+            DecisionPoint point{{batch.get(), 0}, 0, episode, step, horizon - step, horizon};
+            point.base_action = noop;
+            const std::int64_t before = allocations;
+            planner.decide(point, action.data(), nullptr);
+            made = allocations - before;
+        }
+    return made;
+}
+
+// Futures of more steps allocate no more, and each further round of trials or roll-outs only what
+// the copies of environments for it take, and the growth of a tree.
+TEST(Allocations, NoneInStepsOfPlanners) {
+    CemOptions cem;
+    cem.population = 16;
+    RolloutOptions rollout;
+    rollout.lanes = 16;
+    UctOptions uct;
+    uct.lanes = 8;
+    // One allocation a step would be 40 in two rounds.
+    constexpr std::int64_t of_round = 40, few = 10;
+    for (const rddl_simulator* simulator : simulators()) {
+        SCOPED_TRACE(simulator->problem->domain);
+        EXPECT_LT(allocations_of<Cem>(*simulator, cem, 2, 24),
+                  allocations_of<Cem>(*simulator, cem, 2, 4) + few);
+        EXPECT_LT(allocations_of<Rollout>(*simulator, rollout, 2, 24),
+                  allocations_of<Rollout>(*simulator, rollout, 2, 4) + few);
+        EXPECT_LE(
+            allocations_of<HistorySearch>(*simulator, uct, 12 * uct.lanes, 24),
+            allocations_of<HistorySearch>(*simulator, uct, 2 * uct.lanes, 24) + 10 * of_round);
+        if (Uct::can_list_actions(*simulator, uct)) {
+            EXPECT_LE(allocations_of<Uct>(*simulator, uct, 12 * uct.lanes, 24),
+                      allocations_of<Uct>(*simulator, uct, 2 * uct.lanes, 24) + 10 * of_round);
+        }
+    }
+}
+
+}  // namespace
+}  // namespace rddlc::planners
