@@ -30,6 +30,7 @@
 #include "passes/lanes/choose_evaluation.hpp"
 #include "passes/lanes/evaluate_together.hpp"
 #include "passes/lanes/group_angles.hpp"
+#include "passes/lanes/quantify_together.hpp"
 #include "passes/lanes/read_places.hpp"
 #include "passes/lanes/separate_aggregations.hpp"
 #include "passes/lanes/separate_counts.hpp"
@@ -52,6 +53,8 @@ namespace {
 
 constexpr std::string_view strength_summary =
     "operators get cheaper equals: products replace divisions and powers";
+
+constexpr std::string_view unused_summary = "unread tables and interm-fluents are removed";
 
 constexpr std::string_view draws_summary =
     "draws of two branches that have the same random numbers become one";
@@ -292,7 +295,7 @@ constexpr Pass in_order[] = {
     {"remove_unused_buffers",
      Phase::Sharing,
      remove_unused_buffers,
-     "unread tables and interm-fluents are removed",
+     unused_summary,
      {"unroll_rows"},
      "all passes above leave tables unread"},
     {"share_subexpressions",
@@ -314,6 +317,18 @@ constexpr Pass in_order[] = {
      "loops over several objects at once fill vector registers",
      {"share_subexpressions"},
      "the loops have their final bodies"},
+    {"quantify_together",
+     Phase::Lanes,
+     quantify_together,
+     "an exists or forall over bools of several objects finds them in registers",
+     {"evaluate_together"},
+     "it says which loops run over several objects, and not over words"},
+    {"remove_unused_buffers",
+     Phase::Sharing,
+     remove_unused_buffers,
+     unused_summary,
+     {"quantify_together"},
+     "it leaves tables of bools unread"},
     {"visit_affected",
      Phase::Lanes,
      visit_affected,
