@@ -68,7 +68,7 @@ def run(words, seconds, folder=None):
                 os.wait4(process.pid, 0)
                 process.returncode = -signal.SIGKILL
         process.returncode = os.waitstatus_to_exitcode(status)
-        if process.returncode in (-signal.SIGXCPU, -signal.SIGKILL) and usage.ru_utime + usage.ru_stime >= seconds:
+        if process.returncode in (-signal.SIGXCPU, -signal.SIGKILL) and usage.ru_utime + usage.ru_stime > 0.9 * seconds:
             raise Failure(f"longer than {seconds:.0f} s")
         out.seek(0)
         err.seek(0)

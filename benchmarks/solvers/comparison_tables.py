@@ -115,7 +115,8 @@ def table(rows):
 
 
 def numbers_text(numbers):
-    return " or ".join(f"{number:,}" for number in sorted(set(numbers)))
+    *most, last = (f"{number:,}" for number in sorted(set(numbers)))
+    return f"{', '.join(most)} or {last}" if most else last
 
 
 def options_text(results):
