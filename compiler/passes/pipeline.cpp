@@ -2,6 +2,7 @@
 
 #include "passes/aggregations/count_bits.hpp"
 #include "passes/aggregations/count_bools.hpp"
+#include "passes/aggregations/count_factors.hpp"
 #include "passes/aggregations/draw_over_objects.hpp"
 #include "passes/aggregations/factor_aggregations.hpp"
 #include "passes/aggregations/fuse_interm_fluents.hpp"
@@ -186,6 +187,12 @@ constexpr Pass in_order[] = {
      {"index_directly", "hoist_aggregations"},
      "the others need aggregations over all objects, and leave less to do",
      leaves_out_zeros | may_find_more},
+    {"count_factors",
+     Phase::Aggregations,
+     count_factors,
+     "products of one constant where bools are true look up its powers by a count",
+     {"make_aggregations_sparse"},
+     "it leaves out factors of 1, which it does not see in a table"},
     {"tabulate_counts",
      Phase::Aggregations,
      tabulate_counts,
@@ -285,7 +292,8 @@ constexpr Pass in_order[] = {
      test_cheap_first,
      "conditions evaluate their aggregations where the rest does not decide them",
      {"test_equalities_first", "separate_aggregations"},
-     "aggregations that are filled for several objects at once are tables already"},
+     "aggregations that are filled for several objects at once are tables already",
+     may_find_more},
     {"group_angles",
      Phase::Lanes,
      group_angles,

@@ -18,6 +18,9 @@ constexpr double least_cost_of_reals = 4;
 // Objects that do not fill a register share one where each of them takes so many operations:
 // elementary functions, draws of reals, and draws from weights do.
 constexpr double least_cost_of_few_objects = 60;
+// The same if each of them certainly draws by thresholds: the rounds of a random number wait for
+// each other.
+constexpr double least_cost_of_few_draws = 20;
 constexpr std::int64_t fewest_objects = 2;
 
 class Marking {
@@ -112,9 +115,11 @@ class Marking {
     }
 
     bool are_expensive(const ir::Nest& nest, const ir::Store& store) const {
+        const bool draws = std::holds_alternative<ir::Interval>(program_[store.value].form);
         return program_[store.target].scalar != ir::Scalar::Bool &&
                ir::combinations(program_, nest.variables) >= fewest_objects &&
-               cost_of(store.value) >= least_cost_of_few_objects;
+               cost_of(store.value) >=
+                   (draws ? least_cost_of_few_draws : least_cost_of_few_objects);
     }
 
     const ir::Program& program_;

@@ -1,5 +1,6 @@
 #include "passes/lanes/evaluate_together.hpp"
 
+#include "passes/aggregations/tabulate_thresholds.hpp"
 #include "texts.hpp"
 
 #include <string>
@@ -93,6 +94,21 @@ TEST(EvaluateTogether, TakesFewObjectsWhoseRealsTakeLong) {
     EXPECT_EQ(marked("if (v(?x) > 1.0) then 2.0 else v(?x) + Normal(0.0, 1.0)"), 1);
     EXPECT_EQ(marked("max[0.0, min[v(?x), 1.0]] + v(?x) * v(?x) / 3.0"), 0);
     EXPECT_EQ(marked("v(?x) + sum_{?y : obj} [v(?y)]"), 0);
+}
+
+TEST(EvaluateTogether, TakesFewObjectsThatDrawByThresholds) {
+    const auto marked = [](const std::string& cpf) {
+        passes::Report report;
+        const ir::Program program =
+            grounded({.pvariables = "c : { state-fluent, bool, default = false };\n"
+                                    "hue(obj) : { interm-fluent, color };",
+                      .cpfs = "c' = ~c;\nhue(?x) = " + cpf + ";"});
+        passes::evaluate_together(passes::tabulate_thresholds(program, report), report);
+        return report["loops over several objects at once"];
+    };
+    const std::string draw = "Discrete(color, @red : 0.25, @green : 0.5, @blue : 0.25)";
+    EXPECT_EQ(marked(draw), 1);
+    EXPECT_EQ(marked("if (c) then @red else " + draw), 0);
 }
 
 // Both objects draw from the weights of three others.
