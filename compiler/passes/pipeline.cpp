@@ -30,10 +30,12 @@
 #include "passes/lanes/choose_evaluation.hpp"
 #include "passes/lanes/evaluate_together.hpp"
 #include "passes/lanes/group_angles.hpp"
+#include "passes/lanes/quantify_together.hpp"
 #include "passes/lanes/read_places.hpp"
 #include "passes/lanes/separate_aggregations.hpp"
 #include "passes/lanes/separate_counts.hpp"
 #include "passes/lanes/separate_draws.hpp"
+#include "passes/lanes/test_cheap_first.hpp"
 #include "passes/lanes/test_equalities_first.hpp"
 #include "passes/lanes/unroll_rows.hpp"
 #include "passes/lanes/visit_affected.hpp"
@@ -51,6 +53,8 @@ namespace {
 
 constexpr std::string_view strength_summary =
     "operators get cheaper equals: products replace divisions and powers";
+
+constexpr std::string_view unused_summary = "unread tables and interm-fluents are removed";
 
 constexpr std::string_view draws_summary =
     "draws of two branches that have the same random numbers become one";
@@ -276,6 +280,12 @@ constexpr Pass in_order[] = {
      "what has to hold beside an equality of reals is evaluated where the equality holds",
      {"compare_magnitudes", "separate_aggregations"},
      "conditions have their final form"},
+    {"test_cheap_first",
+     Phase::Lanes,
+     test_cheap_first,
+     "conditions evaluate their aggregations where the rest does not decide them",
+     {"test_equalities_first", "separate_aggregations"},
+     "aggregations that are filled for several objects at once are tables already"},
     {"group_angles",
      Phase::Lanes,
      group_angles,
@@ -285,7 +295,7 @@ constexpr Pass in_order[] = {
     {"remove_unused_buffers",
      Phase::Sharing,
      remove_unused_buffers,
-     "unread tables and interm-fluents are removed",
+     unused_summary,
      {"unroll_rows"},
      "all passes above leave tables unread"},
     {"share_subexpressions",
@@ -307,6 +317,18 @@ constexpr Pass in_order[] = {
      "loops over several objects at once fill vector registers",
      {"share_subexpressions"},
      "the loops have their final bodies"},
+    {"quantify_together",
+     Phase::Lanes,
+     quantify_together,
+     "an exists or forall over bools of several objects finds them in registers",
+     {"evaluate_together"},
+     "it says which loops run over several objects, and not over words"},
+    {"remove_unused_buffers",
+     Phase::Sharing,
+     remove_unused_buffers,
+     unused_summary,
+     {"quantify_together"},
+     "it leaves tables of bools unread"},
     {"visit_affected",
      Phase::Lanes,
      visit_affected,

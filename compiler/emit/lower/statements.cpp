@@ -32,6 +32,14 @@ ir::BufferId only_target(const ir::Nest& nest) {
     return ir::only_statement<ir::Store>(*nest.body)->target;
 }
 
+// The terms of a loop over several objects that finds whether one of them, or all, are true
+// (passes/lanes/quantify_together.hpp); null if it fills a table.
+const ir::Apply* quantified(const ir::Program& program, const ir::Nest& nest) {
+    const auto* store = std::get_if<ir::Store>(&nest.body->back().form);
+    return store && store->indices.empty() ? std::get_if<ir::Apply>(&program[store->value].form)
+                                           : nullptr;
+}
+
 bool is_binder(const ir::Node& node) {
     return ir::bound_variable(node).has_value();
 }
@@ -148,6 +156,7 @@ void FunctionBody::statement(const ir::Loop& loop) {
 // rddl::for_chosen_objects<course_count>(context, action.take, state.passed, next.passed,
 //                                        [&](auto& several, auto c) { ... });
 // rddl::for_many_objects<cell_count>(context, [&](auto& several, auto c) { ... });
+// next.on = next.on || rddl::exists_object<n>(context, [&](auto& several, auto x) { ... });
 void FunctionBody::over_several_objects(const ir::Loop& loop) {
     const auto before = expressions_.mark();
     const auto [nest, context, objects] = expressions_.enter(ir::nest_of(loop));
@@ -157,7 +166,12 @@ void FunctionBody::over_several_objects(const ir::Loop& loop) {
 
     // Whether the context has a name is known when the body is.
     expressions_.uses().context = false;
-    tree::Block body = inner(1, [&, innermost = nest.body] { block(*innermost); });
+    const ir::Apply* const found = quantified(program(), nest);
+    tree::Block body = inner(1, [&, innermost = nest.body] {
+        if (!found) return block(*innermost);
+        block({innermost->begin(), innermost->end() - 1});
+        return_value(found->operands.back());
+    });
     const bool has_context = std::exchange(expressions_.uses().context, true);
     tree::Expressions parameters = {
         has_context ? tree::Expression{tree::Declared{"auto&", context}} : tree::word("auto&"),
@@ -176,6 +190,16 @@ void FunctionBody::over_several_objects(const ir::Loop& loop) {
                         tree::list(tree::word("context"), expressions_.record(loop.chosen->few),
                                    expressions_.record(loop.chosen->kept),
                                    expressions_.record(only_target(nest)), std::move(lambda)))});
+    } else if (found) {
+        const std::string function =
+            found->op == Operator::Or ? "rddl::exists_object<" : "rddl::for_all_objects<";
+        tree::Expression so_far =
+            expressions_.record(std::get<ir::Store>(nest.body->back().form).target);
+        tree::Expression result = tree::operation(
+            plain_operator(found->op),
+            {so_far, tree::call(function + count + ">",
+                                tree::list(tree::word("context"), std::move(lambda)))});
+        statements_.push_back({tree::Assign{std::move(so_far), std::move(result)}});
     } else {
         const std::string function =
             loop.as_words ? "rddl::for_many_objects<" : "rddl::for_each_object<";

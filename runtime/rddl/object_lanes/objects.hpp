@@ -55,12 +55,34 @@ struct Elements {
 
 }  // namespace RDDL_SIMD_LEVEL
 
+// One or two registers of doubles with AVX-512: no more than the objects need.
+inline constexpr int objects_at_once = 16;
+template <Index count, class R>
+inline constexpr int objects_of_loop = count <= objects_at_once / 2
+                                           ? std::max(objects_at_once / 2, simd::lanes_of<R>)
+                                           : objects_at_once;
+
 // ------------------------------------------------------------------------------------ draws
+
+// The standard normals that a loop has drawn last, of one series and the indices from `first` on.
+struct NormalsOfLoop {
+    using Some = Lanes<double, objects_at_once>;
+    static constexpr std::uint32_t most = Context<Pack<objects_at_once>>::most_numbers;
+
+    std::uint32_t series = no_series;
+    std::uint32_t first, count;  // of packs
+    Some packs[most];
+    NormalsOfLoop() {}  // leaves the numbers as they are, to be quick
+
+    std::uint32_t pack_of(Place place) const { return (place.index - first) / objects_at_once; }
+    bool has(Place place) const { return series == place.series && pack_of(place) < count; }
+};
 
 template <int n, class R>
 struct Context<Objects<n, R>> {
     const StepDraws& draws;
-    Mask<n> active;  // the lanes whose values are used: they alone can fault
+    Mask<n> active;                    // the lanes whose values are used: they alone can fault
+    NormalsOfLoop* normals = nullptr;  // null: none are kept
     int faulty_lane = n;
     FaultRecord fault{};  // of the first of the lanes that have one
 
@@ -103,6 +125,36 @@ RDDL_INLINE Lanes<R, n> uniform_at(Context<Objects<n, R>>& context, Place place)
     const auto numbers = unit_real<R>(
         interleaved(join_lower_halves(words[0], words[1]), join_lower_halves(words[2], words[3])));
     return part_of<Lanes<R, n>>(numbers, 0);
+}
+
+namespace detail {
+
+// The normals of the next objects of a loop over `count`, as many as are kept.
+template <class Normal>
+[[gnu::noinline]] void refill(NormalsOfLoop& normals, const StepDraws& draws, Place place,
+                              std::uint32_t count) {
+    Context<Objects<objects_at_once, double>> context{draws, true};
+    normals.series = place.series;
+    normals.first = place.index;
+    normals.count = 0;
+    for (; normals.count < normals.most && place.index < count; place.index += objects_at_once)
+        normals.packs[normals.count++] = uniform_at(context, place);
+    Normal::replace(normals.packs, normals.count);
+}
+
+}  // namespace detail
+
+// Normals of a loop over more objects than lanes are made together, since few of them are far from
+// the median, and these take long. Where most lanes need none, they are made of these alone.
+template <class Normal, int n, Index count>
+requires(count > objects_at_once && requires { &Normal::template replace<objects_at_once>; })
+    RDDL_INLINE Lanes<double, n> standard_at(Context<Objects<n, double>>& context,
+                                             PlaceAmong<count> place) {
+    NormalsOfLoop* const normals = context.normals;
+    if (!normals || (!normals->has(place) && 2 * __builtin_popcountll(context.active.bits) < n))
+        return Normal::of(uniform_at(context, place));
+    if (!normals->has(place)) detail::refill<Normal>(*normals, context.draws, place, count);
+    return part_of<Lanes<double, n>>(normals->packs[normals->pack_of(place)], 0);
 }
 
 // --------------------------------------------------------------------------------- elements
@@ -260,40 +312,65 @@ RDDL_INLINE auto exists(const Context<L>&, IndexRange range, Body&& body) {
 
 // ------------------------------------------------------------------------------------ loops
 
-// Calls body(context, object) for [0, count): for a context of these objects.
 namespace detail {
 
 template <int n, class R, class Body>
-RDDL_INLINE void for_each_of_several(Context<ScalarOf<R>>& context, Index count, Body&& body) {
+RDDL_INLINE void for_some(Context<ScalarOf<R>>& context, const StepDraws& draws,
+                          NormalsOfLoop& normals, const SomeObjects<n>& objects, Body& body) {
+    Context<Objects<n, R>> some{draws, objects.mask(), &normals};
+    body(some, objects);
+    if (some.fault && !context.fault) context.fault = some.fault;
+}
+// Two calls let compilers know how many objects there are in each, and let the last ones take no
+// more registers than they need.
+template <int n, Index count, class R, class Body>
+RDDL_INLINE void for_each_of_several(Context<ScalarOf<R>>& context, Body&& body) {
+    constexpr Index full = count / n * n;
+    constexpr int rest = count - full;
     const StepDraws draws(context);
-    const auto some_at = [&](Index first, int some_count) RDDL_INLINE_LAMBDA {
-        const SomeObjects<n> objects{first, some_count};
-        Context<Objects<n, R>> some{draws, objects.mask()};
-        body(some, objects);
-        if (some.fault && !context.fault) context.fault = some.fault;
-    };
-    // Two calls let compilers know how many objects there are in each.
-    const Index full = count / n * n;
-    for (Index first = 0; first < full; first += n) some_at(first, n);
-    if (full < count) some_at(full, static_cast<int>(count - full));
+    NormalsOfLoop normals;
+    for (Index first = 0; first < full; first += n)
+        for_some(context, draws, normals, SomeObjects<n>{first, n}, body);
+    if constexpr (rest > 0)
+        for_some(context, draws, normals, SomeObjects<objects_of_loop<rest, R>>{full, rest}, body);
 }
 
 }  // namespace detail
 
-// One or two registers of doubles with AVX-512: no more than the objects need.
-inline constexpr int objects_at_once = 16;
-template <Index count, class R>
-inline constexpr int objects_of_loop = count <= objects_at_once / 2
-                                           ? std::max(objects_at_once / 2, simd::lanes_of<R>)
-                                           : objects_at_once;
-
+// Calls body(context, object) for [0, count): for a context of these objects.
 template <Index count, int n, class R, class Body>
 RDDL_INLINE void for_each_object(Context<Pack<n, R>>& context, Body&& body) {
     for (Index i = 0; i < count; ++i) body(context, OneObject{i});
 }
 template <Index count, class R, class Body>
 RDDL_INLINE void for_each_object(Context<ScalarOf<R>>& context, Body&& body) {
-    detail::for_each_of_several<objects_of_loop<count, R>>(context, count, body);
+    detail::for_each_of_several<objects_of_loop<count, R>, count>(context, body);
+}
+
+// Whether body(context, object), which neither faults nor draws, holds for one object at least of
+// [0, count), or for all. One environment takes a register of reals at once, since masks of several
+// registers have to be joined.
+template <Index count, int n, class R, class Body>
+RDDL_INLINE Mask<n> exists_object(Context<Pack<n, R>>& context, Body&& body) {
+    Mask<n> found{false};
+    for (Index i = 0; i < count; ++i) found = found || body(context, OneObject{i});
+    return found;
+}
+template <Index count, class R, class Body>
+RDDL_INLINE bool exists_object(Context<ScalarOf<R>>& context, Body&& body) {
+    bool found = false;
+    detail::for_each_of_several<objects_of_loop<1, R>, count>(
+        context, [&]<int n>(auto& several, const SomeObjects<n>& objects) RDDL_INLINE_LAMBDA {
+            const Mask<n> holds = body(several, objects);
+            found |= any(holds && objects.mask());
+        });
+    return found;
+}
+template <Index count, class L, class Body>
+RDDL_INLINE auto for_all_objects(Context<L>& context, Body&& body) {
+    return !exists_object<count>(context,
+                                 [&](auto& several, const auto& object)
+                                     RDDL_INLINE_LAMBDA { return !body(several, object); });
 }
 
 }  // namespace rddl

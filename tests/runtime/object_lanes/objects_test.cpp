@@ -336,6 +336,41 @@ TEST(Objects, DrawWhatTheyDrawOneByOne) {
     expect_draws_one_by_one<3>();
 }
 
+// Of all objects, of most of them, and of few.
+template <Index objects>
+void expect_shared_normals(Context<Scalar> context) {
+    constexpr auto size = static_cast<std::size_t>(objects);
+    std::array<bool, size> few{};
+    for (std::size_t i = 5; i < size; i += 16) few[i] = true;
+    std::array<double, size> all{}, some{};
+    for_each_object<objects>(context, [&](auto& several, auto x) {
+        elements(all, x) = sample::normal(several, PlaceAmong<objects>{1, x}, 3.0, 2.0);
+        elements(some, x) = branch(
+            several, at(few, x),
+            [&] {
+                return sample::normal(several, PlaceAmong<objects>{2, x}, 0.0, 1.0);
+            },
+            [&] {
+                return sample::normal(several, PlaceAmong<objects>{3, x, 9}, 0.0, 1.0);
+            });
+    });
+    for (Index i = 0; i < objects; ++i) {
+        const auto x = static_cast<std::size_t>(i);
+        EXPECT_EQ(all[x], sample::normal(context, {1, i}, 3.0, 2.0)) << i;
+        EXPECT_EQ(some[x], few[x] ? sample::normal(context, {2, i}, 0.0, 1.0)
+                                  : sample::normal(context, {3, i, 9}, 0.0, 1.0))
+            << i;
+    }
+}
+
+TEST(Objects, MakeTheirNormalsTogether) {
+    expect_shared_normals<16>(context_of_step(1));
+    expect_shared_normals<21>(context_of_step(2));
+    expect_shared_normals<64>(context_of_step(3));
+    expect_shared_normals<150>(context_of_step(4));
+    expect_shared_normals<40>({median_key, 1, {}});
+}
+
 constexpr std::array<std::array<double, 2>, 3> thresholds_by_kind = {{
     {0.2, 0.4},
     {0.5, 0.5},
@@ -391,6 +426,41 @@ TEST(Objects, TellTheFaultOfTheFirstObject) {
     EXPECT_EQ(context.fault.kind, FaultKind::Variance);
     EXPECT_EQ(context.fault.place, Place(1, 21));
     EXPECT_EQ(context.fault.value, -1);
+}
+
+template <Index objects>
+void expect_quantifiers() {
+    std::array<double, static_cast<std::size_t>(objects)> level{};
+    Context<Scalar> context = context_of_step(1);
+    auto packs =
+        Context<Pack<16>>::of(Pack<16>::Word{7}, Pack<16>::Word{9}, Pack<16>::Word{1}, true);
+    const auto expect = [&](bool any, bool all) {
+        const auto is_high = [&](auto&, auto x) {
+            return at(level, x) > 0.0;
+        };
+        EXPECT_EQ(exists_object<objects>(context, is_high), any);
+        EXPECT_EQ(for_all_objects<objects>(context, is_high), all);
+        const auto is_high_in_some = [&](auto&, auto x) {
+            return Lanes<double, 16>(at(level, x)) > 0.0;
+        };
+        EXPECT_EQ(exists_object<objects>(packs, is_high_in_some).bits, any ? 0xFFFF : 0);
+        EXPECT_EQ(for_all_objects<objects>(packs, is_high_in_some).bits, all ? 0xFFFF : 0);
+    };
+    expect(false, false);
+    for (double& each : level) {
+        each = 1;
+        expect(true, objects == 1);
+        each = 0;
+    }
+    level.fill(1);
+    expect(true, true);
+}
+
+TEST(Objects, TellWhetherABoolHoldsForOneOrForAll) {
+    expect_quantifiers<1>();
+    expect_quantifiers<8>();
+    expect_quantifiers<13>();
+    expect_quantifiers<24>();
 }
 
 TEST(Objects, DoNotFaultInBranchesThatTheyDoNotTake) {
