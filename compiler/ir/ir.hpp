@@ -139,8 +139,8 @@ enum class Gather : std::uint8_t {
     InRow,     // the last ones are, in a row that is the same for all: elements side by side
     Rows,      // of a constant table: each object, or its kind, has a row, and an index into it
     Own,       // each object has indices of its own
-    Chances,   // adjacent ones of a constant table: probabilities of draws in a loop as words, of
-               // which some are 0 or 1, so that it is known which objects need random numbers
+    Chances,   // adjacent ones of a constant table: probabilities of draws. It is known which
+               // random numbers are below them, and which objects need none
 };
 struct Load {
     BufferId buffer;

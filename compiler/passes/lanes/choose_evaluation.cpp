@@ -60,7 +60,7 @@ class Gathering {
         return ir::replace_in(
             builder_, id, known, [&](ir::NodeId each) -> std::optional<ir::NodeId> {
                 if (const auto* sample = std::get_if<ir::Sample>(&program_[each].form))
-                    return drawn(each, *sample, nest);
+                    return drawn(each, *sample, nest, known);
                 const auto* load = std::get_if<ir::Load>(&program_[each].form);
                 if (!load || load->gather != ir::Gather::None) return std::nullopt;
                 const ir::Gather gather = gather_of(*load, nest);
@@ -73,23 +73,48 @@ class Gathering {
             });
     }
 
-    // A draw in a loop as words, whose probabilities become chances.
-    std::optional<ir::NodeId> drawn(ir::NodeId id, ir::Sample sample, const ir::Nest& nest) {
-        const auto* load = std::get_if<ir::Load>(&program_[sample.parameters.front()].form);
-        if (!are_words_ || !load || !are_chances(*load, nest)) return std::nullopt;
-        ++report_["draws that are known where they are certain"];
-        const ir::BufferId table = load->buffer;
-        const ir::NodeId p = builder_.load(table, load->indices, ir::Gather::Chances);
-        return builder_.sample(program_[id].type, sample.distribution, sample.place, {p});
+    // A draw whose probabilities become chances: those of a table in a loop as words, and those of
+    // one of two tables in a loop of other values.
+    std::optional<ir::NodeId> drawn(ir::NodeId id, ir::Sample sample, const ir::Nest& nest,
+                                    std::map<ir::NodeId, ir::NodeId>& known) {
+        if (sample.distribution != Distribution::Bernoulli) return std::nullopt;
+        const ir::Node& p = program_[sample.parameters.front()];
+        ir::NodeId chances;
+        if (const auto* load = std::get_if<ir::Load>(&p.form)) {
+            if (!are_words_ || !are_chances(*load, nest) || are_all_random(*load))
+                return std::nullopt;
+            ++report_["draws that are known where they are certain"];
+            chances = chances_of(*load);
+        } else {
+            const auto* found = std::get_if<ir::Select>(&p.form);
+            if (are_words_ || !found) return std::nullopt;
+            const ir::Select select = *found;
+            const auto* first = std::get_if<ir::Load>(&program_[select.then_value].form);
+            const auto* second = std::get_if<ir::Load>(&program_[select.else_value].form);
+            if (!first || !second || !are_chances(*first, nest) || !are_chances(*second, nest))
+                return std::nullopt;
+            ++report_["draws by one of two tables"];
+            const ir::NodeId yes = chances_of(*first);
+            const ir::NodeId no = chances_of(std::get<ir::Load>(program_[select.else_value].form));
+            chances = builder_.select(gathered(select.condition, nest, known), yes, no);
+        }
+        return builder_.sample(program_[id].type, sample.distribution, sample.place, {chances});
+    }
+    ir::NodeId chances_of(ir::Load load) {
+        return builder_.load(load.buffer, std::move(load.indices), ir::Gather::Chances);
     }
     bool are_chances(const ir::Load& load, const ir::Nest& nest) const {
         const ir::Buffer& table = program_[load.buffer];
-        const auto is_random = [](const ir::Value& p) {
-            return std::get<double>(p) > 0 && std::get<double>(p) < 1;
+        const auto is_probability = [](const ir::Value& p) {
+            return std::get<double>(p) >= 0 && std::get<double>(p) <= 1;
         };
         return load.gather == ir::Gather::None && is_constant(load.buffer) &&
                ir::are_variables_of(program_, load.indices, nest) &&
-               table.count() <= most_chances && !table.values.all_of(is_random);
+               table.count() <= most_chances && table.values.all_of(is_probability);
+    }
+    bool are_all_random(const ir::Load& load) const {
+        return program_[load.buffer].values.all_of(
+            [](const ir::Value& p) { return std::get<double>(p) > 0 && std::get<double>(p) < 1; });
     }
 
     ir::Gather gather_of(const ir::Load& load, const ir::Nest& nest) const {

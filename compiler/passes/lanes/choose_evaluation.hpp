@@ -18,6 +18,9 @@
 //     state.on[NEXT[x]]        =>  own state.on[adjacent NEXT[x]]
 //     sample bernoulli@0[x](RATE[x])
 //                              =>  sample valid bernoulli@0[x](chances RATE[x])
+//     sample bernoulli@0[x](select(state.on[x] > 2, RATE[x], NOISE[x]))
+//                              =>  sample valid bernoulli@0[x](select both(
+//                                      adjacent state.on[x] > 2, chances RATE[x], chances NOISE[x]))
 #pragma once
 
 #include "ir/ir.hpp"

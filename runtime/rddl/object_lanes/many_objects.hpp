@@ -171,9 +171,7 @@ RDDL_INLINE const Real& in_memory(const Real& reals) {
 template <class Probability, int n>
 inline constexpr bool are_by_pairs = false;
 template <const auto& table, int n>
-inline constexpr bool are_by_pairs<ChancesOfMany<table>, n> =
-    count_of<table> == n && (RandomPairs<table>::register_count < RandomPairs<table>::chunk_count ||
-                             RandomPairs<table>::register_count == 0);
+inline constexpr bool are_by_pairs<ChancesOfMany<table>, n> = count_of<table> == n;
 template <class Probability>
 inline constexpr bool may_be_certain = false;
 template <const auto& table>

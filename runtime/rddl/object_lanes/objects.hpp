@@ -324,7 +324,7 @@ RDDL_INLINE void for_some(Context<ScalarOf<R>>& context, const StepDraws& draws,
 // Two calls let compilers know how many objects there are in each, and let the last ones take no
 // more registers than they need.
 template <int n, Index count, class R, class Body>
-RDDL_INLINE void for_each_of_several(Context<ScalarOf<R>>& context, Body&& body) {
+RDDL_ALWAYS_INLINE void for_each_of_several(Context<ScalarOf<R>>& context, Body&& body) {
     constexpr Index full = count / n * n;
     constexpr int rest = count - full;
     const StepDraws draws(context);

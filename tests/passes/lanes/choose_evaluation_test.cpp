@@ -78,6 +78,16 @@ TEST(ChooseEvaluation, SaysWhereSomeDrawsAreCertain) {
         << "the values are not bools alone";
 }
 
+TEST(ChooseEvaluation, SaysWhereObjectsDrawByOneOfTwoTables) {
+    EXPECT_EQ(chosen("Bernoulli(if (x(?o, ?q) > 1.5) then P(?o, ?q) else CHANCE(?o, ?q))", "bool"),
+              "sample valid bernoulli@0[o * 3 + q](select both(adjacent state.x[o, q] > 1.5, "
+              "chances P[o, q], chances CHANCE[o, q]))");
+    EXPECT_EQ(chosen("Bernoulli(if (x(?o, ?q) > 1.5) then P(?o, ?q) else 0.75)", "bool"),
+              "sample valid bernoulli@0[o * 3 + q](select both(adjacent state.x[o, q] > 1.5, "
+              "adjacent P[o, q], 0.75))")
+        << "a number is no table";
+}
+
 TEST(ChooseEvaluation, RoundsWithoutAnInt) {
     EXPECT_EQ(chosen("round[x(?o, ?q)] + 0.5"), "rounded real(round(state.x[o, q])) + 0.5");
 }

@@ -173,11 +173,48 @@ TEST(ManyObjects, DrawWithChancesSomeOfWhichAreCertain) {
     expect_the_same_draws<Scalar, 100, 2>();
     expect_the_same_draws<Scalar, 50, 200>();
     expect_the_same_draws<Scalar, 300, 17>();
+    expect_the_same_draws<Scalar, 80, 1>();
     expect_the_same_draws<ScalarOf<float>, 72, 20>();
     expect_the_same_draws<Pack<16>, 73, 20>();
     expect_the_same_draws<Pack<64>, 40, 3>();
     expect_the_same_draws<Pack<16>, 5, 2>();
     expect_the_same_draws<Pack<64, float>, 7, 3>();
+}
+// Few objects, and tables that each object chooses from.
+template <class L, std::size_t n, std::size_t every>
+void expect_the_same_choices() {
+    using R = typename L::Element;
+    static constexpr const auto& yes = chances_of<n, every, R>;
+    static constexpr const auto& no = chances_of<n, 2 * every, R>;
+    std::array<typename L::Bool, n> wanted, expected, result, expected_by_flag, by_flag;
+    const typename L::Bool flag = bool_at<L>(1);
+    for (std::size_t i = 0; i < n; ++i) wanted[i] = bool_at<L>(i);
+    Context<L> context = context_of_lanes<L>(), same_context = context_of_lanes<L>();
+    for_each_object<n>(context, [&](auto& several, auto x) {
+        elements(expected, x) = sample::valid_bernoulli(
+            several, {0, x}, select(at(wanted, x) || flag, at(yes, x), at(no, x)));
+        elements(expected_by_flag, x) =
+            sample::valid_bernoulli(several, {1, x}, select(flag, at(yes, x), at(no, x)));
+    });
+    for_each_object<n>(same_context, [&](auto& several, auto x) {
+        elements(result, x) = sample::valid_bernoulli(
+            several, {0, x}, select(at(wanted, x) || flag, chances<yes>(x), chances<no>(x)));
+        elements(by_flag, x) =
+            sample::valid_bernoulli(several, {1, x}, select(flag, chances<yes>(x), chances<no>(x)));
+    });
+    for (std::size_t i = 0; i < n; ++i)
+        for (int lane = 0; lane < lanes<L>; ++lane) {
+            EXPECT_EQ(get_lane(expected[i], lane), get_lane(result[i], lane))
+                << n << " objects, object " << i << ", lane " << lane;
+            EXPECT_EQ(get_lane(expected_by_flag[i], lane), get_lane(by_flag[i], lane))
+                << n << " objects, object " << i << ", lane " << lane;
+        }
+}
+TEST(ManyObjects, DrawWithChancesOfOneOfTwoTables) {
+    expect_the_same_choices<Scalar, 7, 1>();
+    expect_the_same_choices<Scalar, 45, 3>();
+    expect_the_same_choices<ScalarOf<float>, 30, 2>();
+    expect_the_same_choices<Pack<16>, 9, 2>();
 }
 constexpr std::array<double, 3> three_chances = {0, 0.5, 1};
 TEST(ManyObjects, DrawForOneObjectWithChances) {
@@ -202,6 +239,23 @@ TEST(ManyObjects, DrawMediansWithChances) {
         elements(drawn, x) = sample::valid_bernoulli(several, {0, x}, chances<two_chances>(x));
     });
     for (std::size_t i = 0; i < 40; ++i) EXPECT_EQ(drawn[i], i == 7) << i;
+}
+
+// A uniform number is below p just as its multiple of 2^-52, or of 2^-23, is below the count.
+TEST(ManyObjects, CountTheNumbersBelowChances) {
+    constexpr std::int64_t all = std::int64_t{1} << 52, of_floats = std::int64_t{1} << 23;
+    EXPECT_EQ(detail::count_below(0.0), 0);
+    EXPECT_EQ(detail::count_below(-1.0), 0);
+    EXPECT_EQ(detail::count_below(0x1p-60), 1);
+    EXPECT_EQ(detail::count_below(0x1p-52), 1);
+    EXPECT_EQ(detail::count_below(0x1.8p-52), 2);
+    EXPECT_EQ(detail::count_below(0.5), all / 2);
+    EXPECT_EQ(detail::count_below(1 - 0x1p-52), all - 1);
+    EXPECT_EQ(detail::count_below(1 - 0x1p-53), all);
+    EXPECT_EQ(detail::count_below(1.0), all);
+    EXPECT_EQ(detail::count_below(0.3f), static_cast<std::int64_t>(0.3f * 0x1p23) + 1);
+    EXPECT_EQ(detail::count_below(1 - 0x1p-23f), of_floats - 1);
+    EXPECT_EQ(detail::count_below(1 - 0x1p-24f), of_floats);
 }
 
 constexpr std::size_t affected_count = 100;
