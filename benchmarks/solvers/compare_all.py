@@ -9,14 +9,17 @@
 It can be interrupted at any time: what is in the file already is not done again. --methods names what is played; a learner
 trains for --seconds, a planner's decision simulates --steps. The learners' runs are kept in a folder beside the file, and
 rollout improves the best policy that the file has by then. --prost FOLDER is PROST after its build.py, which plays against
-`rddl serve` with --prost-seconds for each decision; --jax-python PYTHON has pyRDDLGym-jax, whose JaxPlan trains for --seconds.
+`rddl serve` with --prost-seconds for each decision; --jax-python PYTHON has pyRDDLGym-jax, whose JaxPlan trains for --seconds
+of processor time, once for each of --jax-kinds.
 Times are of a processor, so that a busy machine says much the same. --check fails where the results miss the aims.
 """
 
 import argparse
 import json
+import math
 import os
 import re
+import resource
 import signal
 import subprocess
 import sys
@@ -41,10 +44,17 @@ class Failure(Exception):
 
 
 def run(words, seconds, folder=None):
-    """What a program prints, and its seconds of processor time, children included."""
+    """What a program prints, and its seconds of processor time, children included.
+
+    It has so many seconds of processor time. One that waits for ever is ended by the clock.
+    """
+    def limit_processor_time():
+        resource.setrlimit(resource.RLIMIT_CPU, 2 * (math.ceil(seconds),))
+
     with tempfile.TemporaryFile("w+") as out, tempfile.TemporaryFile("w+") as err:
-        process = subprocess.Popen([str(word) for word in words], stdout=out, stderr=err, start_new_session=True, cwd=folder)
-        end = time.monotonic() + seconds
+        process = subprocess.Popen([str(word) for word in words], stdout=out, stderr=err, start_new_session=True, cwd=folder,
+                                   preexec_fn=limit_processor_time)
+        end = time.monotonic() + 20 * seconds + 60
         pid = 0
         try:
             while not pid:
@@ -58,6 +68,8 @@ def run(words, seconds, folder=None):
                 os.wait4(process.pid, 0)
                 process.returncode = -signal.SIGKILL
         process.returncode = os.waitstatus_to_exitcode(status)
+        if process.returncode in (-signal.SIGXCPU, -signal.SIGKILL) and usage.ru_utime + usage.ru_stime >= seconds:
+            raise Failure(f"longer than {seconds:.0f} s")
         out.seek(0)
         err.seek(0)
         if process.returncode != 0:
@@ -79,13 +91,23 @@ def run_folder(solver, problem, arguments):
     return arguments.out.with_suffix(".runs") / "_".join((*problem, solver))
 
 
+def trained(solver, folder, options, problem, arguments):
+    _, seconds = run([arguments.rddl, "train", solver, *problem, "--out", folder, "--seed", arguments.seed, "--time",
+                      arguments.seconds, "--memory-limit", "8G", "--quiet", *options], arguments.seconds + 600)
+    return evaluated(folder, problem, arguments, seconds)
+
+
 def learned(solver, problem, arguments):
     folder = run_folder(solver, problem, arguments)
-    budget = ["--steps", "1e12"] if solver == "ppo" else ["--gens", "100000000"]
-    _, seconds = run([arguments.rddl, "train", solver, *problem, "--out", folder, "--seed", arguments.seed, "--time",
-                      arguments.seconds, "--memory-limit", "8G", "--threads", 1, "--quiet", *budget],
-                     10 * arguments.seconds + 600)
-    return evaluated(folder, problem, arguments, seconds)
+    if solver != "drp":
+        options = ["--steps", "1e12"] if solver == "ppo" else ["--gens", "100000000"]
+        return trained(solver, folder, ["--threads", 1, *options], problem, arguments)
+    # Which relaxation is better depends on the problem.
+    folders = {kind: folder.with_name(f"{folder.name}_{kind}") for kind in ("soft", "exact")}
+    results = {kind: trained(solver, of, ["--steps", "1e12", "--relax", kind], problem, arguments) for kind, of in folders.items()}
+    best = max(results, key=lambda kind: results[kind]["mean"])
+    folders[best].rename(folder)
+    return results[best] | {"relax": best, "training_seconds": sum(of["training_seconds"] for of in results.values())}
 
 
 def best_policy(problem, arguments):
@@ -152,8 +174,8 @@ def prost(problem, details, arguments):
 
 def jaxplan(problem, arguments):
     printed, seconds = run([arguments.jax_python, Path(__file__).with_name("jaxplan.py"), *problem, "--seconds",
-                            arguments.seconds, "--episodes", arguments.episodes, "--seed", arguments.seed],
-                           10 * arguments.seconds + 600)
+                            arguments.seconds, "--episodes", arguments.episodes, "--seed", arguments.seed,
+                            "--kinds", *arguments.jax_kinds], len(arguments.jax_kinds) * arguments.seconds + arguments.limit)
     return json.loads(printed.splitlines()[-1]) | {"seconds": seconds}
 
 
@@ -196,10 +218,11 @@ def main():
     parser.add_argument("--steps", type=int, default=20000, help="simulated steps of a planner's decision")
     parser.add_argument("--options", metavar="KEY=VALUE,...", help="further options of planners")
     parser.add_argument("--seconds", type=float, default=60, help="a learner's time")
-    parser.add_argument("--limit", type=float, default=300, help="seconds after which a method is given up")
+    parser.add_argument("--limit", type=float, default=300, help="seconds of processor time after which a method is given up")
     parser.add_argument("--prost", type=Path, help="folder of PROST, after its build.py")
     parser.add_argument("--prost-seconds", type=float, default=0.05)
     parser.add_argument("--jax-python", type=Path, help="Python that has pyRDDLGym-jax")
+    parser.add_argument("--jax-kinds", nargs="*", default=("slp", "drp"), help="straight-line plan and deep reactive policy")
     parser.add_argument("--write", metavar="NAME", help="put the table into that section of docs/results/planning.md")
     parser.add_argument("--check", action="store_true", help="fail where the results miss the aims")
     arguments = parser.parse_args()

@@ -2,12 +2,12 @@
 
 from sweep import interval_text
 
-LEARNERS = ("ppo", "cgp")
+LEARNERS = ("ppo", "cgp", "drp")
 PLANNERS = ("cem", "uct", "gradient", "rollout")
 OURS = LEARNERS + PLANNERS
 THEIRS = ("jaxplan", "prost")
 FLOORS = ("noop", "random")
-COLUMNS = {"noop": "no-op", "random": "random", "ppo": "PPO", "cgp": "CGP", "cem": "`plan:cem`", "uct": "`plan:uct`",
+COLUMNS = {"noop": "no-op", "random": "random", "ppo": "PPO", "cgp": "CGP", "drp": "DRP", "cem": "`plan:cem`", "uct": "`plan:uct`",
            "gradient": "`plan:gradient`", "rollout": "`plan:rollout`", "optimum": "optimum", "jaxplan": "JaxPlan", "prost": "PROST"}
 # Why a method has no return: what its message contains, and the word that stands in the table.
 REASONS = (("longer than", "time"), ("memory", "memory"), ("not discrete", "reals"), ("joint actions", "actions"),

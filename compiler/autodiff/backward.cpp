@@ -19,9 +19,9 @@ void Evaluation::add_reward_adjoint(const Lane& adjoint) {
     for (std::size_t lane = 0; lane < lanes; ++lane) add(program_.reward, lane, adjoint[lane]);
 }
 
+// The end of an episode has no derivative.
 void Evaluation::backward() {
-    for (std::size_t i = program_.instructions.size(); i-- > 0;)
-        propagate(program_.instructions[i]);
+    for (std::size_t i = program_.first_of_end; i-- > 0;) propagate(program_.instructions[i]);
 }
 
 void Evaluation::add(Slot slot, std::size_t lane, double adjoint) {

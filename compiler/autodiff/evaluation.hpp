@@ -56,6 +56,8 @@ class Evaluation {
     // Results of forward().
     const Lane& next(std::size_t number) const { return values_[program_.next[number]]; }
     const Lane& reward() const { return values_[program_.reward]; }
+    // Exact also for a relaxed step: its bools are then true above one half, and a number that lies
+    // on the bound of a condition is within it.
     bool is_over(std::size_t lane) const { return values_[program_.over][lane] > 0.5; }
     // A fault, or an int that is too large for a double: values of the lane mean nothing.
     bool has_failed(std::size_t lane) const { return failed_[lane]; }
@@ -74,8 +76,8 @@ class Evaluation {
     }
 
   private:
-    void compute(const Instruction& instruction);
-    void compute_each_lane(const Instruction& instruction);
+    void compute(const Instruction& instruction, bool is_soft);
+    void compute_each_lane(const Instruction& instruction, bool is_soft);
     void propagate(const Instruction& instruction);
     template <class Derivatives>
     void add_partials(const Instruction& instruction, const Derivatives& derivatives);

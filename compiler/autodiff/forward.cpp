@@ -70,14 +70,17 @@ void Evaluation::forward(std::span<const rddl::StreamKey> keys, std::uint32_t st
     for (std::size_t lane = 0; lane < lanes; ++lane)
         contexts_[lane] = Context{.key = keys[lane], .step = steps_made + 1, .fault = {}};
     failed_.fill(false);
-    for (const Instruction& instruction : program_.instructions) compute(instruction);
+    const bool is_soft = relaxation_.mode == Mode::Soft;
+    for (const Instruction& instruction : program_.instructions_of_step())
+        compute(instruction, is_soft);
+    for (const Instruction& instruction : program_.instructions_of_end())
+        compute(instruction, false);
     for (std::size_t lane = 0; lane < lanes; ++lane)
         failed_[lane] = failed_[lane] || contexts_[lane].faulted();
 }
 
 // The commonest instructions have loops over lanes of their own.
-void Evaluation::compute(const Instruction& instruction) {
-    const bool is_soft = relaxation_.mode == Mode::Soft;
+void Evaluation::compute(const Instruction& instruction, bool is_soft) {
     Lane& out = values_[instruction.out];
     if (instruction.code == Code::Sum) {
         out.fill(0);
@@ -87,11 +90,11 @@ void Evaluation::compute(const Instruction& instruction) {
         return;
     }
     const bool has_operands = instruction.a != no_slot;
-    if (!has_operands) return compute_each_lane(instruction);
+    if (!has_operands) return compute_each_lane(instruction, is_soft);
     const Lane& a = values_[instruction.a];
     const Lane& b = instruction.b == no_slot ? a : values_[instruction.b];
     if (instruction.code == Code::RealOperator && compute_real(instruction.op, out, a, b)) return;
-    if (is_soft) return compute_each_lane(instruction);
+    if (is_soft) return compute_each_lane(instruction, is_soft);
     if (instruction.code == Code::Comparison) return compute_comparison(instruction.op, out, a, b);
     if (instruction.code == Code::GuardedProduct)
         return for_lanes(out, a, b, [](double x, double y) { return x == 0 ? x : x * y; });
@@ -105,10 +108,10 @@ void Evaluation::compute(const Instruction& instruction) {
         return for_lanes(out, a, b, [](double x, double y) { return x * y; });
     if (instruction.code == Code::Logic && instruction.op == Operator::Not)
         return for_lanes(out, a, b, [](double x, double) { return 1 - x; });
-    compute_each_lane(instruction);
+    compute_each_lane(instruction, is_soft);
 }
 
-void Evaluation::compute_each_lane(const Instruction& instruction) {
+void Evaluation::compute_each_lane(const Instruction& instruction, bool is_soft) {
     const bool is_int = gives_int(instruction.code);
     for (std::size_t lane = 0; lane < lanes; ++lane) {
         const auto get = [&](Slot slot) {
@@ -118,8 +121,7 @@ void Evaluation::compute_each_lane(const Instruction& instruction) {
         const bool may_fault = instruction.guard == no_slot || get(instruction.guard) > 0.5;
         const rddl::FaultRecord before = context.fault;
         const InstructionValue value(program_, instruction, get, context);
-        const double result =
-            relaxation_.mode == Mode::Soft ? value.soft(relaxation_) : value.exact();
+        const double result = is_soft ? value.soft(relaxation_) : value.exact();
         values_[instruction.out][lane] = result;
         if (!may_fault) context.fault = before;
         if (is_int && may_fault && std::abs(result) > largest_int) failed_[lane] = true;

@@ -15,6 +15,7 @@
 #include <cstdint>
 #include <limits>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -69,6 +70,8 @@ struct Constant {
 // the order of the record (ir/layout.hpp).
 struct StraightLine {
     std::vector<Instruction> instructions;
+    // Those from this one on compute `over` alone, and are exact also where others are relaxed.
+    std::size_t first_of_end = 0;
     std::vector<Slot> operands;  // of all lists
     std::vector<rddl::Place> places;
     std::vector<Constant> constants;
@@ -79,6 +82,12 @@ struct StraightLine {
     Slot reward = no_slot;
     Slot over = no_slot;  // a bool: the next state terminates, or violates an invariant
 
+    std::span<const Instruction> instructions_of_step() const {
+        return std::span(instructions).first(first_of_end);
+    }
+    std::span<const Instruction> instructions_of_end() const {
+        return std::span(instructions).subspan(first_of_end);
+    }
     Slot state_slot(std::size_t number) const { return static_cast<Slot>(number); }
     Slot action_slot(std::size_t number) const { return static_cast<Slot>(state_count + number); }
 };

@@ -71,15 +71,26 @@ class Unroller {
         return result_.slot_count - first;
     }
 
-    // Conditions of states read the next state from here on.
+    // Conditions of states read the next state from here on. They share no instruction with the
+    // step, since they are computed exactly. A relaxed bool is then true if it is above one half.
     void go_to_next_state() {
         std::map<std::uint32_t, ir::BufferId> next;  // by fluent
         for (const ir::Field& field : ir::record_layout(program_, ir::Storage::Next).fields)
             next.emplace(*program_[field.buffer].fluent, field.buffer);
-        for (const ir::Field& field : ir::record_layout(program_, ir::Storage::State).fields)
-            buffers_[field.buffer.index] = buffers_[next.at(*program_[field.buffer].fluent).index];
         reductions_.clear();
         parts_.clear();
+        seen_.clear();
+        result_.first_of_end = result_.instructions.size();
+        for (const ir::Field& field : ir::record_layout(program_, ir::Storage::State).fields) {
+            std::vector<Slot>& slots = buffers_[field.buffer.index];
+            slots = buffers_[next.at(*program_[field.buffer].fluent).index];
+            if (program_[field.buffer].scalar != ir::Scalar::Bool) continue;
+            for (Slot& slot : slots)
+                slot = add({.code = Code::Comparison,
+                            .op = Operator::Greater,
+                            .a = slot,
+                            .b = constant(0.5)});
+        }
     }
 
     Slot over() {
@@ -536,13 +547,16 @@ class Unroller {
         for (const Slot slot : faulty_) used[slot] = true;
         used[result_.reward] = used[result_.over] = true;
         std::vector<Instruction> kept;
+        std::size_t kept_of_end = 0;
         for (std::size_t i = result_.instructions.size(); i-- > 0;) {
             const Instruction& instruction = result_.instructions[i];
             if (!used[instruction.out]) continue;
+            if (i >= result_.first_of_end) ++kept_of_end;
             for_each_operand(instruction, [&](Slot slot) { used[slot] = true; });
             kept.push_back(instruction);
         }
         result_.instructions.assign(kept.rbegin(), kept.rend());
+        result_.first_of_end = kept.size() - kept_of_end;
         renumber(used);
     }
 
@@ -597,7 +611,7 @@ class Unroller {
 }  // namespace
 
 bool can_be_relaxed(const StraightLine& program) {
-    return std::ranges::any_of(program.instructions, [](const Instruction& instruction) {
+    return std::ranges::any_of(program.instructions_of_step(), [](const Instruction& instruction) {
         return is_one_of(instruction.code, {Code::ToInt, Code::Comparison, Code::Bernoulli,
                                             Code::DrawInt, Code::Binomial, Code::Discrete});
     });

@@ -35,6 +35,7 @@
 #include "passes/lanes/separate_aggregations.hpp"
 #include "passes/lanes/separate_counts.hpp"
 #include "passes/lanes/separate_draws.hpp"
+#include "passes/lanes/test_cheap_first.hpp"
 #include "passes/lanes/test_equalities_first.hpp"
 #include "passes/lanes/unroll_rows.hpp"
 #include "passes/lanes/visit_affected.hpp"
@@ -279,6 +280,12 @@ constexpr Pass in_order[] = {
      "what has to hold beside an equality of reals is evaluated where the equality holds",
      {"compare_magnitudes", "separate_aggregations"},
      "conditions have their final form"},
+    {"test_cheap_first",
+     Phase::Lanes,
+     test_cheap_first,
+     "conditions evaluate their aggregations where the rest does not decide them",
+     {"test_equalities_first", "separate_aggregations"},
+     "aggregations that are filled for several objects at once are tables already"},
     {"group_angles",
      Phase::Lanes,
      group_angles,

@@ -103,7 +103,9 @@ Cem::Memory& Cem::memory_of(const DecisionPoint& point) {
     memory.emplace(space_, Spread{options_.spread});
     memory->horizon = options_.horizon.value_or(first_horizon);
     memory->distribution.restart(memory->horizon);
-    memory->kept.resize(static_cast<std::size_t>(options_.kept));
+    // At most half of a population comes again.
+    memory->kept.resize(std::min(static_cast<std::size_t>(options_.kept),
+                                 std::max<std::size_t>(1, population_ / 2)));
     memory->kept_values.resize(memory->kept.size());
     return *memory;
 }
@@ -139,8 +141,10 @@ void Cem::make_population(Memory& memory, const DecisionPoint& point, RandomStre
     }
     std::ranges::fill(origins_, Origin::Sample);
     std::size_t next = 0;
+    // At least a quarter is drawn, also of few plans.
+    const std::size_t drawn = population_ == 1 ? 0 : std::max<std::size_t>(1, population_ / 4);
     const auto take = [&](Origin origin) {
-        if (next == population_) return false;
+        if (next + drawn == population_) return false;
         origins_[next] = origin;
         return true;
     };
@@ -226,6 +230,7 @@ void Cem::note_first_actions(std::span<const std::uint32_t> plans) {
 }
 
 void Cem::rank() {
+    noop_value_ = -std::numeric_limits<double>::infinity();  // where it has no place
     for (std::size_t c = 0; c < population_; ++c) {
         const auto found = mean_and_error(
             scenarios_, [&](std::size_t s) { return futures_.value(s * population_ + c); });
@@ -287,7 +292,7 @@ void Cem::refit(Memory& memory) {
 }
 
 void Cem::keep_best(Memory& memory) {
-    memory.kept_count = std::min(memory.kept.size(), population_);
+    memory.kept_count = memory.kept.size();
     for (std::size_t k = 0; k < memory.kept_count; ++k) {
         end_by_noop(memory.kept[k], static_cast<std::int64_t>(plans_.steps()), memory.horizon);
         plans_.get(order_[k], memory.kept[k]);
@@ -312,7 +317,7 @@ const std::byte* Cem::first_action(std::size_t plan) const {
 
 void Cem::decide(const DecisionPoint& point, std::byte* action, Explanation* explanation) {
     RandomStream stream(options_.seed, point.episode, point.step);
-    BudgetMeter meter(options_.budget, point.stops);
+    BudgetMeter meter(options_.budget, point.stops, point.share, point.steps_spent);
     Memory& memory = memory_of(point);
     const bool compares = simulator_.problem->stochastic || base_;
     const auto lanes = static_cast<std::int64_t>(lanes_);

@@ -46,6 +46,12 @@ ActionParameters::ActionParameters(const rddl_simulator& simulator,
         if (has_one_bound(heads_[column]))
             defaults_[column] = std::max(defaults_[column], first_beside_bound);
     }
+    is_in_group_.resize(columns.size(), false);
+    for (const solvers::CategoryHead& head : space.categories) {
+        if (head.group.empty()) continue;
+        groups_.push_back({{head.group.begin(), head.group.end()}, head.first_value == 0});
+        for (const std::size_t i : groups_.back().members) is_in_group_[i] = true;
+    }
     for (std::size_t i = 0; i < columns.size(); ++i) {
         const rddl_column& column = columns[i];
         if (kinds_[i] != Kind::Fixed || column.object_count > 0) continue;
@@ -93,6 +99,59 @@ double ActionParameters::slope(std::size_t i, double parameter) const {
     return (value(i, parameter + width) - value(i, parameter - width)) / (2 * width);
 }
 
+void ActionParameters::values(std::span<const double> parameters, std::span<double> values) const {
+    for (std::size_t i = 0; i < parameters.size(); ++i)
+        if (!is_in_group_[i]) values[i] = value(i, parameters[i]);
+    for (const Group& group : groups_) {
+        write_chances(group, parameters, values);
+        for (const std::size_t i : group.members)
+            if (default_values_[i] > 0.5f) values[i] = 1 - values[i];
+    }
+}
+
+void ActionParameters::pull_back(std::span<const double> parameters,
+                                 std::span<const double> adjoint,
+                                 std::span<double> gradient) const {
+    for (std::size_t i = 0; i < parameters.size(); ++i)
+        if (!is_in_group_[i]) gradient[i] += adjoint[i] * slope(i, parameters[i]);
+    std::vector<double> chances(groups_.empty() ? 0 : parameters.size());
+    for (const Group& group : groups_) {
+        write_chances(group, parameters, chances);
+        const auto sign = [this](std::size_t i) {
+            return default_values_[i] > 0.5f ? -1.0 : 1.0;
+        };
+        double mean = 0;
+        for (const std::size_t i : group.members) mean += chances[i] * sign(i) * adjoint[i];
+        // The adjoint of the logit, which has the sign of the change as well.
+        for (const std::size_t i : group.members)
+            gradient[i] += sign(i) * bool_slope * chances[i] * (sign(i) * adjoint[i] - mean);
+    }
+}
+
+void ActionParameters::share_scales(std::span<double> squares) const {
+    for (const Group& group : groups_) {
+        double greatest = 0;
+        for (const std::size_t i : group.members) greatest = std::max(greatest, squares[i]);
+        for (const std::size_t i : group.members) squares[i] = greatest;
+    }
+}
+
+// The softmax of a group: the chance of each change.
+void ActionParameters::write_chances(const Group& group, std::span<const double> parameters,
+                                     std::span<double> chances) const {
+    // Logits are bounded by the projection, so that their exponentials are finite.
+    double sum = group.may_be_none ? 1 : 0;
+    for (const std::size_t i : group.members) {
+        chances[i] = std::exp(change_logit(i, parameters[i]));
+        sum += chances[i];
+    }
+    for (const std::size_t i : group.members) chances[i] /= sum;
+}
+
+double ActionParameters::change_logit(std::size_t i, double parameter) const {
+    return default_values_[i] > 0.5f ? -bool_slope * parameter : bool_slope * parameter;
+}
+
 void ActionParameters::project(std::span<double> parameters) const {
     for (std::size_t i = 0; i < parameters.size(); ++i) {
         if (kinds_[i] == Kind::Bool)
@@ -105,9 +164,9 @@ void ActionParameters::project(std::span<double> parameters) const {
     limit_changes(parameters);
 }
 
+// The choice is between this change and none, also where a group has others.
 double ActionParameters::chance_to_differ(std::size_t i, double parameter) const {
-    const double p = value(i, parameter);
-    return default_values_[i] > 0.5f ? 1 - p : p;
+    return sigmoid(change_logit(i, parameter));
 }
 
 void ActionParameters::limit_changes(std::span<double> parameters) const {
@@ -117,14 +176,14 @@ void ActionParameters::limit_changes(std::span<double> parameters) const {
     for (int round = 0; round < 20; ++round) {
         double sum = 0, movable = 0;
         for (std::size_t i = 0; i < parameters.size(); ++i) {
-            if (kinds_[i] != Kind::Bool) continue;
+            if (kinds_[i] != Kind::Bool || is_in_group_[i]) continue;
             const double chance = chance_to_differ(i, parameters[i]);
             sum += chance;
             movable += chance > least;
         }
         if (sum <= limit + 1e-6 || movable == 0) return;
         for (std::size_t i = 0; i < parameters.size(); ++i) {
-            if (kinds_[i] != Kind::Bool) continue;
+            if (kinds_[i] != Kind::Bool || is_in_group_[i]) continue;
             const double chance = chance_to_differ(i, parameters[i]);
             if (chance <= least) continue;
             const double less = std::max(chance - (sum - limit) / movable, least);
@@ -159,13 +218,25 @@ float ActionParameters::written(std::size_t i, double parameter, double threshol
     return default_values_[i];
 }
 
+// All others get their defaults. So does the likeliest one where it is unlikely and need not
+// change.
+void ActionParameters::keep_likeliest(const Group& group, std::span<const double> parameters,
+                                      float* values) const {
+    const std::size_t likeliest = *std::ranges::max_element(
+        group.members, {}, [&](std::size_t i) { return change_logit(i, parameters[i]); });
+    const bool changes = !group.may_be_none || values[likeliest] != default_values_[likeliest];
+    for (const std::size_t i : group.members) values[i] = default_values_[i];
+    if (changes) values[likeliest] = 1 - default_values_[likeliest];
+}
+
 void ActionParameters::write(std::span<const double> parameters, double threshold,
                              float* values) const {
-    std::vector<std::size_t> changed;
-    for (std::size_t i = 0; i < parameters.size(); ++i) {
+    for (std::size_t i = 0; i < parameters.size(); ++i)
         values[i] = written(i, parameters[i], threshold);
+    for (const Group& group : groups_) keep_likeliest(group, parameters, values);
+    std::vector<std::size_t> changed;
+    for (std::size_t i = 0; i < parameters.size(); ++i)
         if (values[i] != default_values_[i]) changed.push_back(i);
-    }
     if (most_changes_ < 0 || std::ssize(changed) <= most_changes_) return;
     std::ranges::stable_sort(changed, [&](std::size_t a, std::size_t b) {
         return size_of_change(a, parameters[a]) > size_of_change(b, parameters[b]);

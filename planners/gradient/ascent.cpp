@@ -24,6 +24,7 @@ Ascent::Ascent(const ActionParameters& actions, solvers::StepDerivatives& deriva
       derivatives_(derivatives),
       scenarios_(scenarios),
       discount_(discount),
+      row_(derivatives.action_count()),
       action_(derivatives.action_count()),
       adjoint_(derivatives.state_count()),
       next_adjoint_(derivatives.state_count()),
@@ -67,8 +68,8 @@ void Ascent::write_actions(std::span<AscendingPlan* const> plans, std::size_t st
         const std::size_t lane = group_first_ + std::min(k, group_size_ - 1);
         const double* const row =
             plans[lane / scenarios_]->parameters.data() + step * actions_.count();
-        for (std::size_t i = 0; i < actions_.count(); ++i)
-            action_[i][k] = actions_.value(i, row[i]);
+        actions_.values({row, actions_.count()}, row_);
+        for (std::size_t i = 0; i < actions_.count(); ++i) action_[i][k] = row_[i];
     }
 }
 
@@ -120,8 +121,8 @@ void Ascent::pull_back(std::span<AscendingPlan* const> plans, std::int64_t steps
             const std::size_t plan = (group_first_ + k) / scenarios_;
             double* const gradient = gradients_.data() + plan * row + t * actions_.count();
             const double* const parameters = plans[plan]->parameters.data() + t * actions_.count();
-            for (std::size_t i = 0; i < actions_.count(); ++i)
-                gradient[i] += action_adjoint_[i][k] * actions_.slope(i, parameters[i]);
+            for (std::size_t i = 0; i < actions_.count(); ++i) row_[i] = action_adjoint_[i][k];
+            actions_.pull_back({parameters, actions_.count()}, row_, {gradient, actions_.count()});
             // An episode that was over before has no part in what comes before.
             if (reward_weight_[t][k] == 0)
                 for (Lane& adjoint : adjoint_) adjoint[k] = 0;
@@ -131,7 +132,7 @@ void Ascent::pull_back(std::span<AscendingPlan* const> plans, std::int64_t steps
 }
 
 void Ascent::move(AscendingPlan& plan, std::span<const double> gradient, double rate,
-                  std::int64_t iteration) const {
+                  std::int64_t iteration) {
     constexpr double mean_decay = 0.9, square_decay = 0.99;
     const auto n = static_cast<double>(iteration + 1);
     const double mean_scale = 1 - std::pow(mean_decay, n);
@@ -140,11 +141,18 @@ void Ascent::move(AscendingPlan& plan, std::span<const double> gradient, double 
         if (!std::isfinite(gradient[j])) continue;
         plan.mean[j] += (1 - mean_decay) * (gradient[j] - plan.mean[j]);
         plan.square[j] += (1 - square_decay) * (gradient[j] * gradient[j] - plan.square[j]);
-        plan.parameters[j] +=
-            rate * (plan.mean[j] / mean_scale) / (std::sqrt(plan.square[j] / square_scale) + 1e-12);
     }
-    for (std::size_t begin = 0; begin < gradient.size(); begin += actions_.count())
-        actions_.project(std::span(plan.parameters).subspan(begin, actions_.count()));
+    const std::size_t count = actions_.count();
+    for (std::size_t begin = 0; begin < gradient.size(); begin += count) {
+        std::copy_n(plan.square.begin() + static_cast<std::ptrdiff_t>(begin), count, row_.begin());
+        actions_.share_scales(row_);
+        for (std::size_t i = 0; i < count; ++i) {
+            if (!std::isfinite(gradient[begin + i])) continue;
+            plan.parameters[begin + i] += rate * (plan.mean[begin + i] / mean_scale) /
+                                          (std::sqrt(row_[i] / square_scale) + 1e-12);
+        }
+        actions_.project(std::span(plan.parameters).subspan(begin, count));
+    }
 }
 
 }  // namespace rddlc::planners

@@ -44,7 +44,7 @@ class Ascent {
     void pull_back(std::span<AscendingPlan* const> plans, std::int64_t steps_made,
                    std::size_t steps, const solvers::Stops* stops);
     void move(AscendingPlan& plan, std::span<const double> gradient, double rate,
-              std::int64_t iteration) const;
+              std::int64_t iteration);
 
     const ActionParameters& actions_;
     solvers::StepDerivatives& derivatives_;
@@ -55,6 +55,7 @@ class Ascent {
     std::vector<Lane> states_;         // of each step of the group, state_count() each
     std::vector<Lane> reward_weight_;  // of each step: its discount; 0 where the episode is over
     Lane returns_{};
+    std::vector<double> row_;  // of one lane's action
     std::vector<Lane> action_, adjoint_, next_adjoint_, action_adjoint_;
     std::vector<double> values_;     // of all plans: their returns
     std::vector<double> gradients_;  // of all plans, a row of parameters for each

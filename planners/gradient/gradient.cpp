@@ -15,7 +15,7 @@ namespace rddlc::planners {
 
 namespace {
 
-constexpr std::int64_t default_horizon = 40;
+constexpr std::int64_t default_horizon = 40, least_horizon = 5;
 // Bools change if they are likelier to than this; the second one is for where several share what is
 // allowed for one.
 constexpr std::array thresholds{0.5, 0.2};
@@ -59,6 +59,22 @@ std::vector<std::unique_ptr<solvers::StepDerivatives>> derivatives_of(
     return derivatives;
 }
 
+// Where steps are few, short plans that go up some gradients are better than long ones that hardly
+// move.
+std::int64_t horizon_at_first(const PlannerContext& context, const GradientOptions& options,
+                              std::size_t relaxations) {
+    if (options.horizon || !options.budget.steps) return options.horizon.value_or(default_horizon);
+    constexpr std::size_t least_ascents = 10;
+    const GradientPopulation population = usual_population(context, options);
+    const std::size_t plans = relaxations * population.plans;
+    const std::size_t scenarios = scenarios_of(*context.simulator.problem, options);
+    const auto each = static_cast<std::int64_t>(least_ascents * plans * scenarios +
+                                                population.draws * (plans * thresholds.size() + 2));
+    const std::int64_t horizon =
+        std::clamp(*options.budget.steps / each, least_horizon, default_horizon);
+    return std::clamp(options.replan, horizon, default_horizon);
+}
+
 }  // namespace
 
 Gradient::Gradient(const PlannerContext& context, const GradientOptions& options)
@@ -69,6 +85,7 @@ Gradient::Gradient(const PlannerContext& context, const GradientOptions& options
       parameters_(simulator_, space_),
       derivatives_(derivatives_of(context, options)),
       horizon_(options.horizon.value_or(default_horizon)),
+      first_horizon_(horizon_at_first(context, options, derivatives_.size())),
       population_(population_of(context, options, horizon_, derivatives_, thresholds.size())),
       plans_(population_.plans * derivatives_.size()),
       scenarios_(scenarios_of(*simulator_.problem, options)),
@@ -101,6 +118,7 @@ Gradient::Memory& Gradient::memory_of(const DecisionPoint& point, RandomStream& 
     auto& memory = memories_.of(point);
     if (memory) return *memory;
     memory.emplace();
+    memory->horizon = first_horizon_;
     memory->choice.kind = base_ ? Candidate::Kind::Policy : Candidate::Kind::Noop;
     const std::size_t count = static_cast<std::size_t>(horizon_) * parameters_.count();
     for (std::size_t p = 0; p < plans_; ++p) {
@@ -159,7 +177,7 @@ void Gradient::search(const DecisionPoint& point, Memory& memory, RandomStream& 
         plan.square.assign(plan.parameters.size(), 0.0);
     }
     memory.is_improved = false;
-    const std::int64_t depth = std::min(horizon_, point.left);
+    const std::int64_t depth = std::min(memory.horizon, point.left);
     find_candidates(memory);
     if (comparison_seconds_ == 0 && meter.has_clock()) {
         time_comparison(point, memory, depth, stream, meter);
@@ -183,6 +201,9 @@ void Gradient::search(const DecisionPoint& point, Memory& memory, RandomStream& 
                     memory.plans.begin() + static_cast<std::ptrdiff_t>(best.plan) + 1);
     memory.choice = best;
     memory.choice.plan = 0;
+    // Where nothing is better than doing nothing, a better plan may need more steps.
+    const auto noop = std::ranges::find(candidates_, Candidate::Kind::Noop, &Candidate::kind);
+    if (!(best.value > noop->value)) memory.horizon = std::min(2 * memory.horizon, horizon_);
 }
 
 // The time of the first comparison is not known yet: its first steps tell.
@@ -200,7 +221,7 @@ void Gradient::ascend(const DecisionPoint& point, Memory& memory, RandomStream& 
     solvers::require_done(
         simulator_, simulator_.get_state(point.origin.batch, point.origin.first, 1, state_.data()));
     derivatives_.front()->read_state(state_.data(), state_numbers_);
-    const std::int64_t depth = std::min(horizon_, point.left);
+    const std::int64_t depth = std::min(memory.horizon, point.left);
     const auto cost = static_cast<std::int64_t>(plans_ * scenarios_) * depth;
     const std::int64_t comparison = futures_.count() * depth;
     std::int64_t iteration = 0;
@@ -365,9 +386,10 @@ void Gradient::move_on(Memory& memory, RandomStream& stream) const {
     ++memory.steps_made;
     if (memory.steps_left > 0) return;
     const std::size_t count = parameters_.count(), rows = static_cast<std::size_t>(horizon_);
+    const auto last = static_cast<std::size_t>(memory.horizon - 1);
     for (AscendingPlan& plan : memory.plans)
         for (std::size_t t = 0; t < rows; ++t) {
-            const std::size_t from = std::min(t + memory.steps_made, rows - 1);
+            const std::size_t from = std::min(t + memory.steps_made, last);
             std::copy_n(plan.parameters.data() + from * count, count,
                         plan.parameters.data() + t * count);
         }

@@ -47,6 +47,7 @@ class Gradient : public Planner {
         std::vector<AscendingPlan> plans;  // the best one first; each ascent takes every n-th
         Candidate choice;                  // of the last search; its plan, if it is one, is 0
         bool is_improved = false;          // this search has moved the plans
+        std::int64_t horizon = 0;          // of a search; plans have horizon_ steps
         std::int64_t steps_left = 0;       // that are made before the next search
         std::size_t steps_made = 0;  // since the last search: plans begin with their first row
     };
@@ -78,7 +79,7 @@ class Gradient : public Planner {
     solvers::ActionRecords records_;
     ActionParameters parameters_;
     std::vector<std::unique_ptr<solvers::StepDerivatives>> derivatives_;  // by each relaxation
-    std::int64_t horizon_;
+    std::int64_t horizon_, first_horizon_;
     GradientPopulation population_;
     std::size_t plans_, scenarios_;  // plans: of all relaxations
     std::vector<Ascent> ascents_;    // by each relaxation

@@ -11,7 +11,8 @@ using solvers::number_option;
 solvers::OptionTable<GradientOptions> make_gradient_table() {
     using Its = GradientOptions;
     solvers::OptionTable<Its> table = common_options<Its>(
-        "Ascents of a decision: a gradient of each plan", "Steps of a plan (40)",
+        "Ascents of a decision: a gradient of each plan",
+        "Steps of a plan (auto: 40; at first fewer where the budget of steps is small)",
         "A policy whose course is compared with the plans");
     solvers::OptionTable<Its> own = {
         number_option<Its, int>(

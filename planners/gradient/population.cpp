@@ -16,6 +16,12 @@ constexpr double usual_environments = 64;
 
 }  // namespace
 
+GradientPopulation usual_population(const PlannerContext& context, const GradientOptions& options) {
+    const bool is_stochastic = context.simulator.problem->stochastic;
+    return {static_cast<std::size_t>(options.plans.value_or(is_stochastic ? 2 : 8)),
+            is_stochastic ? std::size_t{8} : std::size_t{1}};
+}
+
 GradientPopulation population_of(
     const PlannerContext& context, const GradientOptions& options, std::int64_t horizon,
     std::span<const std::unique_ptr<solvers::StepDerivatives>> derivatives, std::size_t ways) {
@@ -35,10 +41,7 @@ GradientPopulation population_of(
         const double candidates = plans * static_cast<double>(ways) + 2;  // no-op and the policy
         return fixed + plans * of_plan + candidates * static_cast<double>(each.draws) * of_lane;
     };
-    const bool is_stochastic = context.simulator.problem->stochastic;
-    GradientPopulation population{
-        static_cast<std::size_t>(options.plans.value_or(is_stochastic ? 2 : 8)),
-        is_stochastic ? std::size_t{8} : std::size_t{1}};
+    GradientPopulation population = usual_population(context, options);
     // Threads have a planner each, and so share the limit.
     const auto limit = static_cast<double>(context.memory_limit);
     const auto is_large = [&] {

@@ -33,6 +33,9 @@ struct DecisionPoint {
     // The action of the base policy, which knows the episode from its beginning; NULL: there is no
     // such policy.
     const std::byte* base_action = nullptr;
+    // The part of the budget that may be used, of what these steps have left.
+    double share = 1;
+    std::int64_t steps_spent = 0;
 };
 
 // The reasons for a decision.

@@ -9,6 +9,7 @@
 #include "planners/rollout/rollout.hpp"
 #include "planners/rollout/rollout_options.hpp"
 #include "planners/uct/history_search.hpp"
+#include "planners/uct/tree_and_plans.hpp"
 #include "planners/uct/uct.hpp"
 #include "planners/uct/uct_options.hpp"
 #include "solvers/batches/batch.hpp"
@@ -76,9 +77,13 @@ std::unique_ptr<Planner> make_planner(const PlannerContext& context, const Optio
 template <>
 std::unique_ptr<Planner> make_planner<Uct>(const PlannerContext& context,
                                            const UctOptions& options) {
+    std::unique_ptr<TreeSearch> tree;
     if (context.sees_state && Uct::can_list_actions(context.simulator, options))
-        return std::make_unique<Uct>(context, options);
-    return std::make_unique<HistorySearch>(context, options);
+        tree = std::make_unique<Uct>(context, options);
+    else
+        tree = std::make_unique<HistorySearch>(context, options);
+    if (!TreeAndPlans::is_of_use(options)) return tree;
+    return std::make_unique<TreeAndPlans>(context, options, std::move(tree));
 }
 
 template <class Options, class ItsPlanner>

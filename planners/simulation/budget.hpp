@@ -21,10 +21,21 @@ inline constexpr double default_seconds = 0.1;
 
 class BudgetMeter {
   public:
-    BudgetMeter(const Budget& budget, const solvers::Stops* stops)
+    // A search has that part of what `spent` steps have left.
+    BudgetMeter(const Budget& budget, const solvers::Stops* stops, double share = 1,
+                std::int64_t spent = 0)
         : budget_(budget), stops_(stops), begin_(Clock::now()) {
         if (!budget.seconds && !budget.steps && !budget.iterations)
             budget_.seconds = default_seconds;
+        const auto part = [share](std::int64_t whole) {
+            return static_cast<std::int64_t>(share * static_cast<double>(whole));
+        };
+        if (budget_.steps) *budget_.steps -= spent;
+        if (share == 1) return;
+        if (budget_.seconds) *budget_.seconds *= share;
+        if (budget_.steps) budget_.steps = part(*budget_.steps);
+        if (budget_.iterations)
+            budget_.iterations = std::max<std::int64_t>(1, part(*budget_.iterations));
     }
 
     void add_steps(std::int64_t steps) { steps_ += steps; }

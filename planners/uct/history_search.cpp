@@ -61,7 +61,7 @@ HistorySearch::HistorySearch(const PlannerContext& context, const UctOptions& op
 void HistorySearch::decide(const DecisionPoint& point, std::byte* action,
                            Explanation* explanation) {
     RandomStream stream(options_.seed, point.episode, point.step);
-    BudgetMeter meter(options_.budget, point.stops);
+    BudgetMeter meter(options_.budget, point.stops, point.share, point.steps_spent);
     try {
         open_root(point);
         choose_policy(point, stream, meter);
@@ -77,6 +77,10 @@ void HistorySearch::decide(const DecisionPoint& point, std::byte* action,
         futures_.begin(point.origin, streams_);
         legal_.make_legal(futures_.batch(), actions_.data());
         std::copy_n(actions_.data(), action_size_, action);
+        found_ = {chosen != 0      ? tree().edge(chosen).value
+                  : policy_return_ ? policy_return_->mean
+                                   : 0,
+                  depth_, chosen == 0 && policies_.size() > 1, best != 0};
         if (explanation) note_explanation(*explanation, chosen, meter);
         if (tree().bytes() > most_bytes_ / 2) tree().clear();
     } catch (...) {

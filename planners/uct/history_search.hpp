@@ -15,6 +15,7 @@
 #include "planners/simulation/mean_and_error.hpp"
 #include "planners/simulation/random_stream.hpp"
 #include "planners/uct/history_tree.hpp"
+#include "planners/uct/tree_search.hpp"
 #include "planners/uct/uct_options.hpp"
 #include "solvers/spaces/actions.hpp"
 
@@ -25,7 +26,7 @@
 
 namespace rddlc::planners {
 
-class HistorySearch : public Planner {
+class HistorySearch : public TreeSearch {
   public:
     HistorySearch(const PlannerContext& context, const UctOptions& options);
     void decide(const DecisionPoint& point, std::byte* action, Explanation* explanation) override;

@@ -447,10 +447,13 @@ EdgeId Uct::best_edge() const {
 
 void Uct::decide(const DecisionPoint& point, std::byte* action, Explanation* explanation) {
     RandomStream stream(options_.seed, point.episode, point.step);
-    BudgetMeter meter(options_.budget, point.stops);
+    BudgetMeter meter(options_.budget, point.stops, point.share, point.steps_spent);
     try {
         const EdgeId chosen = search(point, stream, meter);
         std::copy_n(actions_.record(tree().edge(chosen).action), action_size_, action);
+        const Node& root = tree().node(root_);
+        found_ = {tree().arm(chosen).value, end_ - step_, false,
+                  !root.is_locked && root.edge_count > 1};
         if (explanation) note_explanation(*explanation, chosen, meter);
         keep_below(chosen);
     } catch (...) {

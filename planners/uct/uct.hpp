@@ -11,6 +11,7 @@
 #include "planners/simulation/random_stream.hpp"
 #include "planners/uct/determinised_problem.hpp"
 #include "planners/uct/tree.hpp"
+#include "planners/uct/tree_search.hpp"
 #include "planners/uct/typical_steps.hpp"
 #include "planners/uct/uct_options.hpp"
 
@@ -25,7 +26,7 @@ namespace rddlc::planners {
 inline constexpr std::int64_t later_steps = 20;
 inline constexpr std::size_t later_draws = 4;
 
-class Uct : public Planner {
+class Uct : public TreeSearch {
   public:
     Uct(const PlannerContext& context, const UctOptions& options);
     // Whether the problem has no more actions than options allow.

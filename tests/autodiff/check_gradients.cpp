@@ -7,6 +7,7 @@
 // derivatives has to be among them.
 #include "../parse/rddl_repository.hpp"
 #include "driver/driver.hpp"
+#include "passes/aggregations/shorten_aggregations.hpp"
 #include "step_check.hpp"
 #include "support/failure.hpp"
 
@@ -16,6 +17,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <set>
+#include <utility>
 
 namespace fs = std::filesystem;
 
@@ -64,7 +66,9 @@ void check(const fs::path& instance, std::int64_t steps, Findings& findings) {
     }
     const auto begin = std::chrono::steady_clock::now();
     try {
-        autodiff::StepChecker checker(*compilation.program);
+        // As planners and learners take their derivatives.
+        const ir::Program program = shorten_aggregations(*compilation.program);
+        autodiff::StepChecker checker(program);
         const autodiff::StepCheck result = checker.run(steps);
         const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
         const bool is_right = result.different_values + result.wrong_derivatives == 0;

@@ -1,6 +1,7 @@
 // Each operator and distribution: forward values are the interpreter's, derivatives are
 // differences.
 #include "autodiff/partials.hpp"
+#include "passes/aggregations/shorten_aggregations.hpp"
 #include "problem.hpp"
 #include "step_check.hpp"
 #include "support/failure.hpp"
@@ -98,6 +99,17 @@ TEST(Derivatives, UnrollOnlyWhatTheInstanceLeavesOpen) {
     const ir::Program program = grounded(
         usual_problem("sum_{?o : obj, ?b : pair} [if (B(?o, ?b)) then v(?o) * exp[R(?o)] else 0]"));
     EXPECT_EQ(unroll(program).instructions.size(), 3u);  // B holds once: a product and two sums
+}
+
+// The inner sum is taken out of the outer one, and made once.
+TEST(Derivatives, FactorsOfAggregationsSaveInstructions) {
+    const ir::Program program =
+        grounded(usual_problem("f * (sum_{?o : obj, ?r : obj} [a(?o) ^ p(?r)])"));
+    const ir::Program shorter = shorten_aggregations(program);
+    EXPECT_LT(unroll(shorter).instructions.size(), unroll(program).instructions.size());
+    const StepCheck result = StepChecker(shorter).run(6);
+    EXPECT_EQ(result.different_values + result.wrong_derivatives, 0) << result.first_complaint;
+    EXPECT_GT(result.derivatives, 0);
 }
 
 TEST(Derivatives, FunctionsOfMatricesAreRefused) {

@@ -89,6 +89,36 @@ TEST(Relaxations, SoftValuesHaveTheDerivativeOfDifferences) {
     }
 }
 
+// States at the bounds of several invariants are within all of them. A relaxed bool is true above
+// one half.
+TEST(Relaxations, EndOfAnEpisodeIsExact) {
+    Problem problem = usual_problem("f");
+    problem.blocks =
+        "state-invariants { x >= 1; x <= 1; forall_{?o : obj} [v(?o) <= 1]; };\n"
+        "termination { exists_{?o : obj} [p(?o) ^ x > 0]; };";
+    const ir::Program program = grounded(problem);
+    const StraightLine straight = unroll(program);
+    EXPECT_FALSE(can_be_relaxed(straight));
+    const auto is_over = [&](Mode mode, double f, double v, double p) {
+        Evaluation evaluation(straight, {.mode = mode});
+        for (std::size_t i = 0; i < straight.state_count; ++i) evaluation.state(i).fill(0.0);
+        for (std::size_t i = 2; i < 5; ++i) evaluation.state(i).fill(v);
+        for (std::size_t i = 5; i < 8; ++i) evaluation.state(i).fill(p);
+        for (std::size_t i = 0; i < straight.action_count; ++i) evaluation.action(i).fill(0.0);
+        evaluation.action(straight.action_count - 1).fill(f);
+        evaluation.forward(std::vector<rddl::StreamKey>(lanes, {5, 6}), 3);
+        return evaluation.is_over(0);
+    };
+    for (const Mode mode : {Mode::Exact, Mode::StraightThrough, Mode::Soft}) {
+        EXPECT_FALSE(is_over(mode, 1, 1, 0));
+        EXPECT_TRUE(is_over(mode, 1 - 1e-9, 1, 0));
+        EXPECT_TRUE(is_over(mode, 1, 1 + 1e-9, 0));
+        EXPECT_TRUE(is_over(mode, 1, 1, 1));
+    }
+    EXPECT_FALSE(is_over(Mode::Soft, 1, 1, 0.5));
+    EXPECT_TRUE(is_over(Mode::Soft, 1, 1, 0.6));
+}
+
 TEST(Relaxations, DrawsOfIntsHaveTheDerivativeOfTheirMean) {
     EXPECT_EQ(run("Poisson(f)", Mode::StraightThrough, 0.75).derivative, 1.0);
     EXPECT_EQ(run("Binomial(9, f)", Mode::StraightThrough, 0.75).derivative, 9.0);

@@ -61,6 +61,25 @@ TEST(Cem, TakesThePolicyThatItIsGiven) {
 }
 
 // Plans of two steps take their part of the budget, and the best of them is a candidate.
+// Plans that come again leave room for new ones and for no-op, however small the population is.
+TEST(Cem, DrawsNewPlansInSmallPopulations) {
+    for (const std::string population : {"4", "8"}) {
+        SCOPED_TRACE(population);
+        const Played plan =
+            run(reservoir(), "plan:cem,iterations=4,horizon=4,population=" + population);
+        int drawn = 0, noop = 0;
+        for (const auto& [place, explanation] : plan.explanation) {
+            if (place.second == 0) continue;
+            for (const auto& candidate : explanation.candidates) {
+                drawn += candidate.name == "sample";
+                noop += candidate.name == "noop";
+            }
+        }
+        EXPECT_GT(drawn, 0);
+        EXPECT_GT(noop, 0);
+    }
+}
+
 TEST(Cem, LooksNear) {
     const auto played = [](const std::string& options, int threads) {
         return run(network(), "plan:cem,steps=2000" + options, 2, threads);

@@ -11,6 +11,7 @@
 #include <cmath>
 #include <cstring>
 #include <filesystem>
+#include <numeric>
 #include <thread>
 
 namespace rddlc::planners {
@@ -219,8 +220,9 @@ TEST(ActionParameters, AreProjected) {
     const ActionParameters parameters(network(), solvers::action_space(network()));
     std::vector<double> all(parameters.count(), 1.0);
     parameters.project(all);
-    double changes = 0;
-    for (std::size_t i = 0; i < all.size(); ++i) changes += parameters.value(i, all[i]);
+    std::vector<double> chances(all.size());
+    parameters.values(all, chances);
+    const double changes = std::accumulate(chances.begin(), chances.end(), 0.0);
     EXPECT_LE(changes, static_cast<double>(network().problem->max_nondef_actions) + 1e-3);
     std::vector<float> values(all.size());
     parameters.write(all, 0.0, values.data());
@@ -245,6 +247,75 @@ TEST(ActionParameters, NumbersCountAmongTheChanges) {
     problem.max_nondef_actions = -1;
     ActionParameters(limited, space).write(all, 0.5, values.data());
     for (std::size_t i = 0; i < all.size(); ++i) EXPECT_NE(values[i], space.defaults[i]) << i;
+}
+
+// The best item of each customer who likes any.
+TEST(Gradient, ChoosesTheBestOfBoolsThatExcludeEachOther) {
+    const workbench::LoadedProblem shop = interpreted("shop");
+    const Played plan = run_gradient(*shop.simulator, PROBLEMS "/shop", "iterations=12,horizon=2");
+    EXPECT_EQ(plan.summary.illegal_actions, 0);
+    EXPECT_DOUBLE_EQ(plan.mean(), 2 * (1.5 + 2.0));
+    EXPECT_DOUBLE_EQ(
+        run_gradient(*shop.simulator, PROBLEMS "/shop", "iterations=2,horizon=2").mean(), 7);
+}
+
+// The chances of a group, of which one is that to become false, and their derivatives.
+TEST(ActionParameters, OfExclusiveBoolsShareASoftmax) {
+    for (const bool may_be_none : {true, false}) {
+        solvers::ActionSpace space = solvers::action_space(network());
+        space.defaults[1] = 1;
+        space.categories = {{.first_value = may_be_none ? 0 : 1, .group = {0, 1, 2}}};
+        const ActionParameters parameters(network(), space);
+        const std::size_t count = parameters.count();
+        std::vector<double> all(count, 0.1), adjoint(count, 3.0), gradient(count), values(count);
+        all[1] = 0.2;
+        all[2] = -0.3;
+        adjoint[2] = 5;
+        const auto value = [&] {
+            parameters.values(all, values);
+            return std::inner_product(values.begin(), values.end(), adjoint.begin(), 0.0);
+        };
+        value();
+        const double changes = values[0] + (1 - values[1]) + values[2];
+        EXPECT_NEAR(changes, may_be_none ? 0.6916 : 1, 1e-4);
+        parameters.pull_back(all, adjoint, gradient);
+        for (std::size_t i = 0; i < count; ++i) {
+            constexpr double width = 1e-6;
+            const double before = all[i];
+            all[i] = before + width;
+            const double above = value();
+            all[i] = before - width;
+            const double below = value();
+            all[i] = before;
+            EXPECT_NEAR(gradient[i], (above - below) / (2 * width), 1e-6) << i;
+        }
+        std::vector<double> squares = adjoint;
+        parameters.share_scales(squares);
+        EXPECT_EQ(squares[0], 5);
+        EXPECT_EQ(squares[3], 3);
+        const auto written = [&](double first, double second, double third) {
+            std::vector<double> from = {first, second, third};
+            from.resize(count, -1.0);
+            std::vector<float> row(count);
+            parameters.write(from, 0.5, row.data());
+            return std::vector(row.begin(), row.begin() + 3);
+        };
+        EXPECT_EQ(written(0.1, -0.2, 0.1), (std::vector<float>{0, 0, 0}));
+        EXPECT_EQ(written(0.1, 0.2, 0.3), (std::vector<float>{0, 1, 1}));
+        EXPECT_EQ(written(-0.2, 0.2, -0.1), (std::vector<float>{0, 1, may_be_none ? 0.0f : 1.0f}));
+    }
+}
+
+// Few steps are spent on short plans, so that these go up some gradients.
+TEST(Gradient, ChoosesItsHorizonByTheSteps) {
+    const auto depth_by = [](const std::string& options) {
+        return run_gradient(car(), EXAMPLES "/mountain_car", options).thought(0, 0).depth;
+    };
+    EXPECT_LT(depth_by("steps=2000"), 20);
+    // It is too short to reach the goal, so that no-op is the best, and is doubled.
+    const Played plan = run_gradient(car(), EXAMPLES "/mountain_car", "steps=2000");
+    EXPECT_GE(plan.thought(0, 1).depth, 2 * plan.thought(0, 0).depth);
+    EXPECT_EQ(depth_by("steps=2000,horizon=25"), 25);
 }
 
 }  // namespace

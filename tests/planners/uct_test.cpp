@@ -125,7 +125,23 @@ TEST(Uct, FindsADistantGoal) {
     const workbench::LoadedProblem problem = interpreted("corridor");
     const std::string planner = "plan:uct,iterations=50,lanes=8";
     EXPECT_NEAR(run(*problem.simulator, planner, 20).mean(), -13.3, 1.2);
-    EXPECT_LT(run(*problem.simulator, planner + ",initial=rollout").mean(), -29);
+    EXPECT_LT(run(*problem.simulator, planner + ",initial=rollout,policy=noop").mean(), -29);
+}
+
+// Where the tree finds nothing better than no-op, plans do, from the second decision on.
+TEST(Uct, FindsADistantGoalByPlans) {
+    const workbench::LoadedProblem problem = interpreted("corridor");
+    const std::string planner = "plan:uct,steps=5000,lanes=8,initial=rollout";
+    const Played played = run(*problem.simulator, planner);
+    EXPECT_GT(played.mean(), -29);
+    const auto is_plan = [&](std::int64_t step) {
+        const Explanation& thought = played.thought(0, step);
+        EXPECT_LE(thought.steps, 5000);
+        return thought.candidates.at(thought.chosen).name == "plan";
+    };
+    EXPECT_FALSE(is_plan(0));
+    EXPECT_TRUE(is_plan(1));
+    EXPECT_EQ(run(*problem.simulator, planner, 2, 2).returns().front(), played.returns().front());
 }
 
 // With a lookahead of one step a new state is worth that step and what a policy does after it. In

@@ -2,6 +2,7 @@
 
 #include "autodiff/evaluation.hpp"
 #include "autodiff/number_layout.hpp"
+#include "passes/aggregations/shorten_aggregations.hpp"
 #include "problems/front_end.hpp"
 
 #include <rddl/random/random.hpp>
@@ -98,7 +99,8 @@ class LazyProblem {
         if (!problem_) {
             Compilation compilation = compile(options_);
             give_up_on_errors(compilation);
-            problem_ = std::make_shared<const DifferentiableProblem>(*compilation.program);
+            problem_ = std::make_shared<const DifferentiableProblem>(
+                shorten_aggregations(std::move(*compilation.program)));
         }
         return problem_;
     }

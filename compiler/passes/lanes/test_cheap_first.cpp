@@ -1,0 +1,105 @@
+#include "passes/lanes/test_cheap_first.hpp"
+
+#include "ir/analysis.hpp"
+#include "ir/rewrite.hpp"
+
+#include <algorithm>
+#include <set>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace rddlc::passes {
+namespace {
+
+// In operations (Properties::cost): evaluating less takes no longer than a jump that is
+// mispredicted.
+constexpr double worth_a_branch = 48;
+
+// The operator if it is And or Or.
+std::optional<Operator> connective_of(const ir::Node& node) {
+    const auto* apply = std::get_if<ir::Apply>(&node.form);
+    if (apply && (apply->op == Operator::And || apply->op == Operator::Or)) return apply->op;
+    return std::nullopt;
+}
+
+// Whether each node, by NodeId::index, is an operand of a node with the same connective.
+std::vector<bool> parts_of_conditions(const ir::Program& program) {
+    std::vector<bool> is_part(program.nodes.size());
+    for (const ir::Node& node : program.nodes) {
+        const auto op = connective_of(node);
+        if (!op) continue;
+        for (const ir::NodeId operand : ir::operands_of(node))
+            if (connective_of(program[operand]) == op) is_part[operand.index] = true;
+    }
+    return is_part;
+}
+
+void add_parts(const ir::Program& program, ir::NodeId id, Operator op,
+               std::vector<ir::NodeId>& parts) {
+    if (connective_of(program[id]) != op) return parts.push_back(id);
+    for (const ir::NodeId operand : ir::operands_of(program[id]))
+        add_parts(program, operand, op, parts);
+}
+
+ir::NodeId joined(ir::Builder& builder, Operator op, std::span<const ir::NodeId> parts) {
+    ir::NodeId whole = parts.front();
+    for (const ir::NodeId part : parts.subspan(1)) whole = builder.apply(op, {whole, part});
+    return whole;
+}
+
+// Whether it has an aggregation that depends on all of these variables. Another one does not
+// change in some loop around the condition, and is computed before that loop.
+bool has_loop(const ir::Builder& builder, ir::NodeId id,
+              const std::vector<ir::VariableId>& variables) {
+    std::set<ir::NodeId> seen;
+    const auto has = [&](const auto& self, ir::NodeId each) -> bool {
+        if (!seen.insert(each).second) return false;
+        const ir::Node& node = builder.program()[each];
+        const auto& free = builder.properties(each).free_variables;
+        if (std::holds_alternative<ir::Reduce>(node.form) && std::ranges::includes(free, variables))
+            return true;
+        return std::ranges::any_of(ir::operands_of(node),
+                                   [&](ir::NodeId operand) { return self(self, operand); });
+    };
+    return has(has, id);
+}
+
+std::optional<ir::NodeId> tested_first(ir::Builder& builder, ir::NodeId id, Operator op) {
+    std::vector<ir::NodeId> parts;
+    add_parts(builder.program(), id, op, parts);
+    const auto may_fault = [&](ir::NodeId part) {
+        return builder.properties(part).may_fault;
+    };
+    if (std::ranges::any_of(parts, may_fault)) return std::nullopt;
+    const auto dear = std::stable_partition(parts.begin(), parts.end(), [&](ir::NodeId part) {
+        return ir::is_cheap(builder.properties(part));
+    });
+    if (dear == parts.begin() || dear == parts.end()) return std::nullopt;
+    const ir::NodeId test = joined(builder, op, std::span(parts.begin(), dear));
+    const ir::NodeId rest = joined(builder, op, std::span(dear, parts.end()));
+    if (builder.properties(rest).cost < worth_a_branch ||
+        !has_loop(builder, rest, builder.properties(test).free_variables))
+        return std::nullopt;
+    const ir::NodeId decided = builder.constant(op == Operator::Or);
+    return op == Operator::Or ? builder.select(test, decided, rest)
+                              : builder.select(test, rest, decided);
+}
+
+}  // namespace
+
+ir::Program test_cheap_first(ir::Program program, Report& report) {
+    const std::vector<bool> is_part = parts_of_conditions(program);
+    return ir::rewrite(std::move(program),
+                       [&](ir::Builder& builder, ir::NodeId id,
+                           const ir::Node& node) -> std::optional<ir::NodeId> {
+                           const auto op = connective_of(node);
+                           if (!op || is_part[id.index]) return std::nullopt;
+                           const ir::NodeId whole = builder.rebuild(node);
+                           const auto tested = tested_first(builder, whole, *op);
+                           if (tested) ++report["cheap conditions tested first"];
+                           return tested.value_or(whole);
+                       });
+}
+
+}  // namespace rddlc::passes
