@@ -72,4 +72,14 @@ bool is_of_bools(const ir::Program& program, ir::NodeId id, const ir::Nest& nest
         [](const auto&) { return false; });
 }
 
+bool is_of_words(const ir::Program& program, const ir::Loop& loop) {
+    const ir::Nest nest = ir::nest_of(loop);
+    return std::ranges::all_of(*nest.body, [&](const ir::Statement& statement) {
+        const auto* let = std::get_if<ir::Let>(&statement.form);
+        const auto* store = std::get_if<ir::Store>(&statement.form);
+        return (let && is_of_bools(program, let->value, nest)) ||
+               (store && is_of_bools(program, store->value, nest));
+    });
+}
+
 }  // namespace rddlc::passes

@@ -22,5 +22,7 @@ bool are_many(const ir::Program& program, const ir::Nest& nest);
 // `is_element` says which nodes will become elements of tables.
 bool is_of_bools(const ir::Program& program, ir::NodeId id, const ir::Nest& nest,
                  const std::function<bool(ir::NodeId)>& is_element = nullptr);
+// Whether all values of the loop are: what Loop::as_words says.
+bool is_of_words(const ir::Program& program, const ir::Loop& loop);
 
 }  // namespace rddlc::passes

@@ -37,7 +37,7 @@ class Marking {
             const bool is_right =
                 is_worth_it(*loop) && is_possible(*loop) && !(is_inside && computes_ints(*loop));
             const bool was_marked = std::exchange(loop->several_at_once, is_right);
-            loop->as_words = loop->several_at_once && is_of_words(*loop);
+            loop->as_words = loop->several_at_once && is_of_words(program_, *loop);
             marked += loop->several_at_once && !was_marked;
             if (!loop->several_at_once) marked += mark(loop->body, true);
         }
@@ -61,15 +61,6 @@ class Marking {
                 scalar == ir::Scalar::Bool || properties_[store->value.index].random;
         }
         return draws_or_is_bool || cost >= least_cost_of_reals;
-    }
-    bool is_of_words(const ir::Loop& loop) const {
-        const ir::Nest nest = ir::nest_of(loop);
-        return std::ranges::all_of(*nest.body, [&](const ir::Statement& statement) {
-            const auto* let = std::get_if<ir::Let>(&statement.form);
-            const auto* store = std::get_if<ir::Store>(&statement.form);
-            return (let && is_of_bools(program_, let->value, nest)) ||
-                   (store && is_of_bools(program_, store->value, nest));
-        });
     }
     // An int that is drawn, aggregated, or made from a real, such as a sign. C++ compilers put
     // other loops over ints into registers themselves.

@@ -5,6 +5,7 @@
 #include "ir/reduction_nest.hpp"
 #include "ir/rewrite.hpp"
 #include "passes/analyses/bool_words.hpp"
+#include "passes/lanes/read_places.hpp"
 
 #include <algorithm>
 #include <cstdint>
@@ -117,10 +118,28 @@ class CountSeparation {
     Span span_;
 };
 
+bool are_loops_of_words(const ir::Program& program, const ir::Block& block) {
+    return std::ranges::all_of(block, [&](const ir::Statement& statement) {
+        const auto* loop = std::get_if<ir::Loop>(&statement.form);
+        return !loop || !loop->as_words || is_of_words(program, *loop);
+    });
+}
+
 }  // namespace
 
+// The bools are read by their places at once: without that the loops are not of words.
 ir::Program separate_counts(ir::Program program, Report& report) {
-    return CountSeparation(std::move(program), report).run();
+    Report found;
+    ir::Program separated = CountSeparation(program, found).run();
+    if (found.empty()) return program;
+    separated = read_places(std::move(separated), found);
+    const bool are_right = are_loops_of_words(separated, separated.reward.body) &&
+                           std::ranges::all_of(separated.step, [&](const ir::Definition& each) {
+                               return are_loops_of_words(separated, each.body);
+                           });
+    if (!are_right) return program;
+    for (const auto& [what, count] : found) report[what] += count;
+    return separated;
 }
 
 }  // namespace rddlc::passes

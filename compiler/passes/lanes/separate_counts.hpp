@@ -3,8 +3,8 @@
 //
 //     reward = real(sum[c in cell](int(state.up[c] && state.up[NEXT-c[c]])))
 //                                         =>
-//     for c in cell
-//         reward-bools[c] = state.up[c] && state.up[NEXT-c[c]]
+//     for c in cell, as words
+//         reward-bools[c] = state.up[c] && element(state.up, reward-bools-places[c])
 //     reward = real(count_ones(bits(reward-bools, 0)))
 //
 // count_bits.hpp does so without a table where all places are the same. An exists or forall stops

@@ -26,6 +26,7 @@ TEST(SeparateCounts, CountsBitsOfATable) {
         " [-(on(?x, ?y, ?z, ?w) & on(NEXT(?x), ?y, ?z, ?w))]",
         report);
     EXPECT_EQ(report["sums that count words of bools"], 1);
+    EXPECT_EQ(report["loops that read bools by their places"], 1);
     EXPECT_EQ(ir::print(program, program.reward.value),
               "real(-(count_ones(bits(scratch.reward-bools, 0)) + "
               "count_ones(bits(scratch.reward-bools, 64))))");
