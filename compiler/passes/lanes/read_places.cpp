@@ -15,8 +15,8 @@
 namespace rddlc::passes {
 namespace {
 
-// An aggregation of more terms stays a loop; so does one of several terms that objects have less
-// than half of on average.
+// Aggregations that have more terms together stay loops; so does one of several terms that objects
+// have less than half of on average.
 constexpr std::int64_t most_terms = 8;
 // One over all objects of a type has fewer terms: each of them may add a table of places.
 constexpr std::int64_t most_whole_terms = 3;
@@ -56,8 +56,9 @@ class PlaceReading {
 
         std::map<ir::NodeId, ir::NodeId> spread;
         terms_ = 0;
-        const ir::NodeId value = ir::replace_in(builder_, store->value, spread,
-                                                [&](ir::NodeId id) { return spread_out(id); });
+        ir::NodeId value = ir::replace_in(builder_, store->value, spread,
+                                          [&](ir::NodeId id) { return spread_out(id); });
+        if (terms_ > most_terms) value = store->value;
         const ir::Store changed{store->target, store->indices, value};
         const ObjectLanes several(
             program_,

@@ -80,6 +80,18 @@ TEST(ReadPlaces, TakesTheTermsOfAnExistsOverFewObjects) {
               "action.given[2, x, y, z]\n");
 }
 
+// Three of the outer one, nine of the inner one.
+TEST(ReadPlaces, TakesAllTermsOrNone) {
+    const Problem problem{
+        .pvariables =
+            "in(obj, obj, obj) : { state-fluent, bool, default = false };\n"
+            "a(obj) : { action-fluent, bool, default = false };",
+        .cpfs = "in'(?x, ?y, ?z) = exists_{?w : obj, ?u : obj} [a(?w) & ~a(?u)];"};
+    passes::Report report;
+    passes::read_places(grounded(problem), report);
+    EXPECT_TRUE(report.empty());
+}
+
 TEST(ReadPlaces, LeavesWhatTheStepDecidesAndWhatIsThereAlready) {
     for (const char* cpf :
          {"on(?x, ?y) | a(?x) & v(?y) > 2.0", "on(?x, ?y)",
