@@ -167,7 +167,7 @@ template <class R, bool some_are_certain>
 struct Chance {
     R value;
 };
-// Those of n objects.
+// The probabilities of n objects.
 template <const auto& table, int n>
 struct SomeChances {
     SomeObjects<n> objects;

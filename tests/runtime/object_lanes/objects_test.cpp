@@ -336,7 +336,7 @@ TEST(Objects, DrawWhatTheyDrawOneByOne) {
     expect_draws_one_by_one<3>();
 }
 
-// Of all objects, of most of them, and of few.
+// Shared are the normals of all objects, of most of them, and of few.
 template <Index objects>
 void expect_shared_normals(Context<Scalar> context) {
     constexpr auto size = static_cast<std::size_t>(objects);
