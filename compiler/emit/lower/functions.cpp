@@ -143,7 +143,8 @@ std::string cpf_comment(const Unit& unit, const ir::Definition& definition, Owne
     const bool is_cpf = target.fluent || owner == Owner::Policy;
     if (!is_cpf && target.storage == ir::Storage::Observation)  // a precondition
         return comment(unit.sources.text_on_one_line(definition.span), place);
-    return comment((is_cpf ? "" : "A table for ") + lifted_head(unit, definition), place);
+    const char* const what = is_cpf ? "" : target.shape.empty() ? "A value for " : "A table for ";
+    return comment(what + lifted_head(unit, definition), place);
 }
 
 // A record by the name that the runtime looks for.

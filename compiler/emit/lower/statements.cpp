@@ -40,6 +40,19 @@ const ir::Apply* quantified(const ir::Program& program, const ir::Nest& nest) {
                                            : nullptr;
 }
 
+// Whether the first statement stores what the second one, a loop that quantifies, finds in no
+// objects: false for an exists, true for a forall.
+bool stores_start(const ir::Program& program, const ir::Statement& first,
+                  const ir::Statement& second) {
+    const auto* start = std::get_if<ir::Store>(&first.form);
+    const auto* loop = std::get_if<ir::Loop>(&second.form);
+    if (!start || !loop || !loop->several_at_once) return false;
+    const ir::Nest nest = ir::nest_of(*loop);
+    const ir::Apply* const found = quantified(program, nest);
+    return found && std::get<ir::Store>(nest.body->back().form).target == start->target &&
+           ir::constant<bool>(program, start->value) == (found->op == Operator::And);
+}
+
 bool is_binder(const ir::Node& node) {
     return ir::bound_variable(node).has_value();
 }
@@ -116,8 +129,11 @@ std::string_view wish_for(const ir::Node& node) {
 // --------------------------------------------------------------------------- statements
 
 void FunctionBody::block(const ir::Block& block) {
-    for (const ir::Statement& each : block) {
-        match(each.form, [&](const auto& form) { statement(form); });
+    for (std::size_t k = 0; k < block.size(); ++k) {
+        if (k + 1 < block.size() && stores_start(program(), block[k], block[k + 1]))
+            over_several_objects(std::get<ir::Loop>(block[++k].form), true);
+        else
+            match(block[k].form, [&](const auto& form) { statement(form); });
     }
 }
 
@@ -156,8 +172,8 @@ void FunctionBody::statement(const ir::Loop& loop) {
 // rddl::for_chosen_objects<course_count>(context, action.take, state.passed, next.passed,
 //                                        [&](auto& several, auto c) { ... });
 // rddl::for_many_objects<cell_count>(context, [&](auto& several, auto c) { ... });
-// next.on = next.on || rddl::exists_object<n>(context, [&](auto& several, auto x) { ... });
-void FunctionBody::over_several_objects(const ir::Loop& loop) {
+// scratch.on_exists = rddl::exists_object<n>(context, [&](auto& several, auto x) { ... });
+void FunctionBody::over_several_objects(const ir::Loop& loop, bool is_from_start) {
     const auto before = expressions_.mark();
     const auto [nest, context, objects] = expressions_.enter(ir::nest_of(loop));
     std::string count = expressions_.unit().size_of(program()[nest.variables[0]]);
@@ -177,6 +193,8 @@ void FunctionBody::over_several_objects(const ir::Loop& loop) {
         has_context ? tree::Expression{tree::Declared{"auto&", context}} : tree::word("auto&"),
         {tree::Declared{"auto", objects}}};
     tree::Expression lambda{tree::Lambda{std::move(parameters), std::move(body)}};
+    expressions_.leave_nest();
+    expressions_.return_to(before);
     if (loop.affected) {
         const auto& [few, rows, affected] = *loop.affected;
         statements_.push_back(
@@ -193,21 +211,19 @@ void FunctionBody::over_several_objects(const ir::Loop& loop) {
     } else if (found) {
         const std::string function =
             found->op == Operator::Or ? "rddl::exists_object<" : "rddl::for_all_objects<";
-        tree::Expression so_far =
-            expressions_.record(std::get<ir::Store>(nest.body->back().form).target);
-        tree::Expression result = tree::operation(
-            plain_operator(found->op),
-            {so_far, tree::call(function + count + ">",
-                                tree::list(tree::word("context"), std::move(lambda)))});
-        statements_.push_back({tree::Assign{std::move(so_far), std::move(result)}});
+        const ir::BufferId target = std::get<ir::Store>(nest.body->back().form).target;
+        tree::Expression result = tree::call(function + count + ">",
+                                             tree::list(tree::word("context"), std::move(lambda)));
+        if (!is_from_start)
+            result = tree::operation(plain_operator(found->op),
+                                     {expressions_.record(target), std::move(result)});
+        statements_.push_back({tree::Assign{expressions_.target(target, {}), std::move(result)}});
     } else {
         const std::string function =
             loop.as_words ? "rddl::for_many_objects<" : "rddl::for_each_object<";
         statements_.push_back({tree::call(function + count + ">",
                                           tree::list(tree::word("context"), std::move(lambda)))});
     }
-    expressions_.leave_nest();
-    expressions_.return_to(before);
 }
 
 // rddl::spread(next.at[c], rddl::union_of(moves_, rddl::bits(state.at[c]), action.move[c]));

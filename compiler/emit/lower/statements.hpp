@@ -33,7 +33,8 @@ class FunctionBody {
     void statement(const ir::Spread& spread);
     void statement(const ir::Visit& visit);
     void mark(const ir::Mark& mark, const std::string& is_there);
-    void over_several_objects(const ir::Loop& loop);
+    // What a loop that quantifies starts from may be known: no statement has to store it.
+    void over_several_objects(const ir::Loop& loop, bool is_from_start = false);
     void statement(const ir::Call& call);
 
     // The use of a value: the width of the text before it, if both stand in one line.
