@@ -46,35 +46,32 @@ class FullDisk(CommandTest):
                             "TMPDIR": str(self.folder / "tmp")}
 
     def fill_at_each_call(self, outputs, *words, of=None) -> int:
-        """The number of calls of the program that need room."""
-        for older in None, "older\n":
-            complete = self.complete(outputs, older, *words)
-            for call in range(1, MOST_CALLS):
-                self.start_with(outputs, older)
-                result = self.run_command(*words, environment={
-                    **self.environment, "LD_PRELOAD": str(LIBRARY), "FULL_DISK_AT": str(call),
-                    "FULL_DISK_OF": of or Path(words[0]).name})
-                if result.status == SUCCESS:
-                    self.assertEqual(self.contents(outputs), complete)
-                    break
-                self.assertEqual(result.status, DIAGNOSED, result)
-                self.assertIn("No space left on device", result.errors)
-                self.assertNotIn("mistake", result.errors)
-                for name, text in self.contents(outputs).items():
-                    self.assertIn(text, (older, complete[name]), f"{name} after call {call}")
-                self.assertEqual(self.left_behind(), [])
-            else:
-                self.fail("the command has no end")
-        return call - 1
+        """The number of calls of the program that need room. Each failed call leaves older files, or
+        complete ones."""
+        older = "older\n"
+        complete = self.complete(outputs, older, *words)
+        for call in range(1, MOST_CALLS):
+            self.start_with(outputs, older)
+            result = self.run_command(*words, environment={
+                **self.environment, "LD_PRELOAD": str(LIBRARY), "FULL_DISK_AT": str(call),
+                "FULL_DISK_OF": of or Path(words[0]).name})
+            if result.status == SUCCESS:
+                self.assertEqual(self.contents(outputs), complete)
+                return call - 1
+            self.assertEqual(result.status, DIAGNOSED, result)
+            self.assertIn("No space left on device", result.errors)
+            self.assertNotIn("mistake", result.errors)
+            for name, text in self.contents(outputs).items():
+                self.assertIn(text, (older, complete[name]), f"{name} after call {call}")
+            self.assertEqual(self.left_behind(), [])
+        self.fail("the command has no end")
 
     def start_with(self, outputs, older) -> None:
         for name in "cache", "tmp":
             shutil.rmtree(self.folder / name, ignore_errors=True)
             (self.folder / name).mkdir()
         for name in outputs:
-            (self.folder / name).unlink(missing_ok=True)
-            if older is not None:
-                self.write(name, older)
+            self.write(name, older)
 
     def contents(self, outputs) -> dict:
         paths = {name: self.folder / name for name in outputs}
