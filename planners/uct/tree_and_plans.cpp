@@ -17,8 +17,8 @@ namespace {
 constexpr std::int64_t noop_draws = 4, depth_of_tree = 40;
 // No-op is not played for more steps, or a greater part of the budget.
 constexpr std::int64_t longest_noop = 1000, least_parts = 10;
-// With fewer steps, the tree has all of them.
-constexpr std::int64_t least_steps = 2000;
+// With fewer steps or trials, the tree has all of them.
+constexpr std::int64_t least_steps = 2000, trials_of_population = 1024;
 // Where trials found nothing in so many decisions, plans have this part of the budget of the next
 // one. A tree that is kept may find a way in the second or third decision, if it has all of the
 // budget.
@@ -37,9 +37,7 @@ CemOptions plan_options(const UctOptions& options) {
     if (budget.seconds) *budget.seconds *= plan_share;
     if (budget.steps)
         budget.steps = static_cast<std::int64_t>(plan_share * static_cast<double>(*budget.steps));
-    constexpr std::int64_t trials_of_population = 1024;
-    if (budget.iterations)
-        budget.iterations = std::max<std::int64_t>(1, *budget.iterations / trials_of_population);
+    if (budget.iterations) budget.iterations = *budget.iterations / trials_of_population;
     return plans;
 }
 
@@ -51,7 +49,9 @@ PlannerContext plan_context(PlannerContext context) {
 }  // namespace
 
 bool TreeAndPlans::is_of_use(const UctOptions& options) {
-    return options.policy.empty() && options.budget.steps.value_or(least_steps) >= least_steps;
+    const Budget& budget = options.budget;
+    return options.policy.empty() && budget.steps.value_or(least_steps) >= least_steps &&
+           budget.iterations.value_or(trials_of_population) >= trials_of_population;
 }
 
 TreeAndPlans::TreeAndPlans(const PlannerContext& context, const UctOptions& options,
