@@ -201,9 +201,13 @@ void Gradient::search(const DecisionPoint& point, Memory& memory, RandomStream& 
                     memory.plans.begin() + static_cast<std::ptrdiff_t>(best.plan) + 1);
     memory.choice = best;
     memory.choice.plan = 0;
-    // Where nothing is better than doing nothing, a better plan may need more steps.
+    // Where nothing is better than doing nothing, a better plan may need more steps. A horizon that
+    // leaves no room for a gradient is too long.
     const auto noop = std::ranges::find(candidates_, Candidate::Kind::Noop, &Candidate::kind);
-    if (!(best.value > noop->value)) memory.horizon = std::min(2 * memory.horizon, horizon_);
+    if (!memory.is_improved)
+        memory.horizon = first_horizon_;
+    else if (!(best.value > noop->value))
+        memory.horizon = std::min(2 * memory.horizon, horizon_);
 }
 
 // The time of the first comparison is not known yet: its first steps tell.

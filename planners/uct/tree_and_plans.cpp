@@ -17,9 +17,12 @@ namespace {
 constexpr std::int64_t noop_draws = 4, depth_of_tree = 40;
 // No-op is not played for more steps, or a greater part of the budget.
 constexpr std::int64_t longest_noop = 1000, least_parts = 10;
-// With fewer steps, the tree has all of them.
-constexpr std::int64_t least_steps = 2000;
-// Where trials found nothing, plans have this part of the budget of the next decision.
+// With fewer steps or trials, the tree has all of them.
+constexpr std::int64_t least_steps = 2000, trials_of_population = 1024;
+// Where trials found nothing in so many decisions, plans have this part of the budget of the next
+// one. A tree that is kept may find a way in the second or third decision, if it has all of the
+// budget.
+constexpr int patience = 3;
 constexpr double plan_share = 0.75;
 // Plans have a part of the memory as well.
 constexpr std::int64_t parts_of_memory = 4;
@@ -34,9 +37,7 @@ CemOptions plan_options(const UctOptions& options) {
     if (budget.seconds) *budget.seconds *= plan_share;
     if (budget.steps)
         budget.steps = static_cast<std::int64_t>(plan_share * static_cast<double>(*budget.steps));
-    constexpr std::int64_t trials_of_population = 1024;
-    if (budget.iterations)
-        budget.iterations = std::max<std::int64_t>(1, *budget.iterations / trials_of_population);
+    if (budget.iterations) budget.iterations = *budget.iterations / trials_of_population;
     return plans;
 }
 
@@ -48,7 +49,9 @@ PlannerContext plan_context(PlannerContext context) {
 }  // namespace
 
 bool TreeAndPlans::is_of_use(const UctOptions& options) {
-    return options.policy.empty() && options.budget.steps.value_or(least_steps) >= least_steps;
+    const Budget& budget = options.budget;
+    return options.policy.empty() && budget.steps.value_or(least_steps) >= least_steps &&
+           budget.iterations.value_or(trials_of_population) >= trials_of_population;
 }
 
 TreeAndPlans::TreeAndPlans(const PlannerContext& context, const UctOptions& options,
@@ -117,6 +120,7 @@ bool TreeAndPlans::find_plan(const DecisionPoint& point, std::byte* action,
     if (explanation) {
         explanation->steps += plan_.steps;
         if (is_better) {
+            explanation->note.clear();  // it says why the tree was not searched
             explanation->depth = plan_.depth;
             explanation->chosen = explanation->candidates.size();
             explanation->candidates.push_back(chosen);
@@ -146,14 +150,14 @@ void TreeAndPlans::decide(const DecisionPoint& point, std::byte* action, Explana
     auto& memory = memories_.of(point);
     if (!memory) memory.emplace();
     play_noop(point);
-    const bool has_plans = memory->is_fruitless;
+    const bool has_plans = memory->fruitless >= patience;
     DecisionPoint its = point;
     its.steps_spent = noop_steps_;
     its.share = has_plans ? 1 - plan_share : 1;
     tree_->decide(its, action, explanation);
-    memory->is_fruitless = is_fruitless();
+    memory->fruitless = is_fruitless() ? std::min(memory->fruitless + 1, patience) : 0;
     if (explanation) explanation->steps += noop_steps_;
-    if (!memory->is_fruitless) return;
+    if (memory->fruitless == 0) return;
     its.share = 1;
     if (!has_plans || !find_plan(its, action, explanation)) prefer_noop(action, explanation);
 }

@@ -30,7 +30,7 @@ class TreeAndPlans : public Planner {
   private:
     // The memory of an episode.
     struct Memory {
-        bool is_fruitless = false;  // the tree of the decision before found nothing
+        int fruitless = 0;  // decisions in a row in which the tree found nothing; up to `patience`
     };
     void play_noop(const DecisionPoint& point);
     bool is_fruitless() const;

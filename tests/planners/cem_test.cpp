@@ -60,7 +60,6 @@ TEST(Cem, TakesThePolicyThatItIsGiven) {
     EXPECT_EQ(plan.summary.illegal_actions, 0);
 }
 
-// Plans of two steps take their part of the budget, and the best of them is a candidate.
 // Plans that come again leave room for new ones and for no-op, however small the population is.
 TEST(Cem, DrawsNewPlansInSmallPopulations) {
     for (const std::string population : {"4", "8"}) {
@@ -80,6 +79,7 @@ TEST(Cem, DrawsNewPlansInSmallPopulations) {
     }
 }
 
+// Plans of two steps take their part of the budget, and the best of them is a candidate.
 TEST(Cem, LooksNear) {
     const auto played = [](const std::string& options, int threads) {
         return run(network(), "plan:cem,steps=2000" + options, 2, threads);

@@ -315,6 +315,14 @@ TEST(Gradient, ChoosesItsHorizonByTheSteps) {
     // It is too short to reach the goal, so that no-op is the best, and is doubled.
     const Played plan = run_gradient(car(), EXAMPLES "/mountain_car", "steps=2000");
     EXPECT_GE(plan.thought(0, 1).depth, 2 * plan.thought(0, 0).depth);
+    // A horizon that leaves no room for a gradient is followed by the first one.
+    int without = 0;
+    for (std::int64_t step = 0; step < 20; ++step) {
+        if (plan.thought(0, step).iterations > 0) continue;
+        ++without;
+        EXPECT_EQ(plan.thought(0, step + 1).depth, plan.thought(0, 0).depth) << step;
+    }
+    EXPECT_GT(without, 0);
     EXPECT_EQ(depth_by("steps=2000,horizon=25"), 25);
 }
 

@@ -128,7 +128,7 @@ TEST(Uct, FindsADistantGoal) {
     EXPECT_LT(run(*problem.simulator, planner + ",initial=rollout,policy=noop").mean(), -29);
 }
 
-// Where the tree finds nothing better than no-op, plans do, from the second decision on.
+// Where the tree finds nothing better than no-op in three decisions, plans do in the fourth one.
 TEST(Uct, FindsADistantGoalByPlans) {
     const workbench::LoadedProblem problem = interpreted("corridor");
     const std::string planner = "plan:uct,steps=5000,lanes=8,initial=rollout";
@@ -137,11 +137,16 @@ TEST(Uct, FindsADistantGoalByPlans) {
     const auto is_plan = [&](std::int64_t step) {
         const Explanation& thought = played.thought(0, step);
         EXPECT_LE(thought.steps, 5000);
-        return thought.candidates.at(thought.chosen).name == "plan";
+        const bool is_one = thought.candidates.at(thought.chosen).name == "plan";
+        EXPECT_TRUE(!is_one || thought.note.empty());
+        return is_one;
     };
-    EXPECT_FALSE(is_plan(0));
-    EXPECT_TRUE(is_plan(1));
+    for (const std::int64_t step : {0, 1, 2}) EXPECT_FALSE(is_plan(step)) << step;
+    EXPECT_TRUE(is_plan(3));
     EXPECT_EQ(run(*problem.simulator, planner, 2, 2).returns().front(), played.returns().front());
+    // A population of plans takes more than few trials.
+    const Played few = run(*problem.simulator, "plan:uct,iterations=1,lanes=8,initial=rollout");
+    for (const auto& [place, thought] : few.explanation) EXPECT_LT(thought.steps, 5000);
 }
 
 // With a lookahead of one step a new state is worth that step and what a policy does after it. In
