@@ -1,7 +1,7 @@
 // Several objects of one environment in vector registers.
 //
 // Emitted code evaluates some loops by for_each_object. Packs of environments take one object after
-// the other there; one environment alone takes 16 of them at once, or 8 if there are no more: a
+// the other there; one environment alone takes 16 of them at once, or 8 if no more are left: a
 // value is then a pack whose lanes are neighbouring elements of tables. Each lane computes what one
 // object would, bit for bit, and the reported fault is that of the first object.
 #pragma once
