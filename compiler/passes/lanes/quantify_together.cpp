@@ -23,15 +23,53 @@ struct Quantifier {
     bool is_negated = false;
 };
 
+// Where a program uses a table.
+struct Uses {
+    std::vector<ir::NodeId> reads, readers;  // nodes that read it, and those that they are part of
+    int writers = 0;
+    bool is_whole_value = false;  // of a statement, which a read is, or of a call
+};
+
+std::map<ir::BufferId, Uses> uses_of_tables(const ir::Program& program) {
+    std::map<ir::BufferId, Uses> tables;
+    const std::vector<bool> reachable = ir::reachable_nodes(program);
+    for (std::uint32_t i = 0; i < reachable.size(); ++i) {
+        const ir::NodeId id{i};
+        if (!reachable[i]) continue;
+        if (const auto table = ir::buffer_read_by(program[id])) tables[*table].reads.push_back(id);
+        for (const ir::NodeId operand : ir::operands_of(program[id]))
+            if (const auto table = ir::buffer_read_by(program[operand]))
+                tables[*table].readers.push_back(id);
+    }
+    for (const ir::NodeId root : ir::roots_of(program))
+        if (const auto table = ir::buffer_read_by(program[root]))
+            tables[*table].is_whole_value = true;
+    for (const ir::Block* block : ir::blocks_of(program))
+        for (const ir::Statement& statement : *block) {
+            const ir::Block alone = {statement};
+            for (const ir::BufferId table : ir::written_buffers(alone)) ++tables[table].writers;
+            ir::for_each_statement<ir::Call>(alone, [&](const ir::Call& call) {
+                for (const ir::TableView& input : call.inputs)
+                    tables[input.buffer].is_whole_value = true;
+            });
+        }
+    return tables;
+}
+
 class Quantification {
   public:
     Quantification(ir::Program program, Report& report)
-        : program_(std::move(program)), report_(report), builder_(program_) {}
+        : program_(std::move(program)),
+          report_(report),
+          builder_(program_),
+          uses_(uses_of_tables(program_)) {}
 
     ir::Program run() && {
         for (ir::Definition& definition : program_.step)
             quantify(definition.body, definition.span, &definition.target);
         quantify(program_.reward.body, program_.reward.span, nullptr);
+        ir::change_roots(
+            program_, [&](ir::NodeId& root) { root = ir::replace_in(builder_, root, replaced_); });
         return ir::collect_garbage(std::move(program_));
     }
 
@@ -53,7 +91,8 @@ class Quantification {
             if (target && *target == table) *target = found;
             block.insert(block.begin() + static_cast<std::ptrdiff_t>(k++),
                          {ir::Store{found, {}, builder_.constant(!is_or)}});
-            replace(*quantifier, so_far);
+            replaced_[quantifier->node] =
+                quantifier->is_negated ? builder_.apply(Operator::Not, {so_far}) : so_far;
             ++report_["quantifiers over several objects at once"];
         }
     }
@@ -78,39 +117,15 @@ class Quantification {
         return may_be ? store : nullptr;
     }
 
-    // The only use of a table that one loop fills.
+    // The only use of a table that one loop fills. Visits and other statements fill tables also.
     std::optional<Quantifier> quantifier_of(ir::BufferId table) const {
-        if (is_used_by_others(table)) return std::nullopt;
-        const std::vector<ir::NodeId> roots = ir::roots_of(program_);
-        const std::vector<bool> reachable = ir::reachable_nodes(program_);
-        std::vector<ir::NodeId> reads, uses;
-        for (std::uint32_t i = 0; i < reachable.size(); ++i) {
-            const ir::NodeId id{i};
-            if (!reachable[i]) continue;
-            if (ir::buffer_read_by(program_[id]) == table) reads.push_back(id);
-            for (const ir::NodeId operand : ir::operands_of(program_[id]))
-                if (ir::buffer_read_by(program_[operand]) == table) uses.push_back(id);
-        }
-        if (reads.size() != 1 || uses.size() != 1 ||
-            std::ranges::find(roots, reads.front()) != roots.end())
+        const auto found = uses_.find(table);
+        if (found == uses_.end()) return std::nullopt;
+        const Uses& uses = found->second;
+        if (uses.reads.size() != 1 || uses.readers.size() != 1 || uses.writers != 1 ||
+            uses.is_whole_value)
             return std::nullopt;
-        return quantifier(uses.front(), reads.front());
-    }
-
-    // Calls take whole tables, and visits and other statements fill them.
-    bool is_used_by_others(ir::BufferId table) const {
-        int writers = 0;
-        bool is_input = false;
-        for (const ir::Block* block : ir::blocks_of(program_))
-            for (const ir::Statement& statement : *block) {
-                const ir::Block alone = {statement};
-                writers += ir::written_buffers(alone).contains(table);
-                ir::for_each_statement<ir::Call>(alone, [&](const ir::Call& call) {
-                    is_input |= std::ranges::find(call.inputs, table, &ir::TableView::buffer) !=
-                                call.inputs.end();
-                });
-            }
-        return writers != 1 || is_input;
+        return quantifier(uses.readers.front(), uses.reads.front());
     }
 
     std::optional<Quantifier> quantifier(ir::NodeId use, ir::NodeId read) const {
@@ -141,17 +156,11 @@ class Quantification {
         return Quantifier{use, Operator::Or, apply.op == Operator::Equal};
     }
 
-    void replace(const Quantifier& quantifier, ir::NodeId found) {
-        std::map<ir::NodeId, ir::NodeId> known = {
-            {quantifier.node,
-             quantifier.is_negated ? builder_.apply(Operator::Not, {found}) : found}};
-        ir::change_roots(program_,
-                         [&](ir::NodeId& root) { root = ir::replace_in(builder_, root, known); });
-    }
-
     ir::Program program_;
     Report& report_;
     ir::Builder builder_;
+    std::map<ir::BufferId, Uses> uses_;          // before the pass
+    std::map<ir::NodeId, ir::NodeId> replaced_;  // quantifiers
 };
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include "ir/rewrite.hpp"
 
 #include <algorithm>
+#include <optional>
 #include <set>
 #include <span>
 #include <utility>

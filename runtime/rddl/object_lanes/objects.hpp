@@ -1,7 +1,7 @@
 // Several objects of one environment in vector registers.
 //
 // Emitted code evaluates some loops by for_each_object. Packs of environments take one object after
-// the other there; one environment alone takes 16 of them at once, or 8 if there are no more: a
+// the other there; one environment alone takes 16 of them at once, or 8 if no more are left: a
 // value is then a pack whose lanes are neighbouring elements of tables. Each lane computes what one
 // object would, bit for bit, and the reported fault is that of the first object.
 #pragma once
@@ -65,17 +65,24 @@ inline constexpr int objects_of_loop = count <= objects_at_once / 2
 // ------------------------------------------------------------------------------------ draws
 
 // The standard normals that a loop has drawn last, of one series and the indices from `first` on.
-struct NormalsOfLoop {
+struct NormalsOfSeries {
     using Some = Lanes<double, objects_at_once>;
     static constexpr std::uint32_t most = Context<Pack<objects_at_once>>::most_numbers;
 
     std::uint32_t series = no_series;
     std::uint32_t first, count;  // of packs
     Some packs[most];
-    NormalsOfLoop() {}  // leaves the numbers as they are, to be quick
+    NormalsOfSeries() {}  // leaves the numbers as they are, to be quick
 
     std::uint32_t pack_of(Place place) const { return (place.index - first) / objects_at_once; }
     bool has(Place place) const { return series == place.series && pack_of(place) < count; }
+    // A series is kept until the loop ends, so that those of one loop do not drive each other out.
+    bool may_keep(Place place) const { return series == no_series || series == place.series; }
+};
+struct NormalsOfLoop {
+    std::array<NormalsOfSeries, recent_series> kept;
+
+    NormalsOfSeries& of(Place place) { return kept[place.series % recent_series]; }
 };
 
 template <int n, class R>
@@ -131,7 +138,7 @@ namespace detail {
 
 // The normals of the next objects of a loop over `count`, as many as are kept.
 template <class Normal>
-[[gnu::noinline]] void refill(NormalsOfLoop& normals, const StepDraws& draws, Place place,
+[[gnu::noinline]] void refill(NormalsOfSeries& normals, const StepDraws& draws, Place place,
                               std::uint32_t count) {
     Context<Objects<objects_at_once, double>> context{draws, true};
     normals.series = place.series;
@@ -145,16 +152,20 @@ template <class Normal>
 }  // namespace detail
 
 // Normals of a loop over more objects than lanes are made together, since few of them are far from
-// the median, and these take long. Where most lanes need none, they are made of these alone.
+// the median, and these take long. Where most lanes need none, or another series is kept, they are
+// made of these lanes alone.
 template <class Normal, int n, Index count>
 requires(count > objects_at_once && requires { &Normal::template replace<objects_at_once>; })
     RDDL_INLINE Lanes<double, n> standard_at(Context<Objects<n, double>>& context,
                                              PlaceAmong<count> place) {
-    NormalsOfLoop* const normals = context.normals;
-    if (!normals || (!normals->has(place) && 2 * __builtin_popcountll(context.active.bits) < n))
-        return Normal::of(uniform_at(context, place));
-    if (!normals->has(place)) detail::refill<Normal>(*normals, context.draws, place, count);
-    return part_of<Lanes<double, n>>(normals->packs[normals->pack_of(place)], 0);
+    if (!context.normals) return Normal::of(uniform_at(context, place));
+    NormalsOfSeries& normals = context.normals->of(place);
+    if (!normals.has(place)) {
+        if (!normals.may_keep(place) || 2 * __builtin_popcountll(context.active.bits) < n)
+            return Normal::of(uniform_at(context, place));
+        detail::refill<Normal>(normals, context.draws, place, count);
+    }
+    return part_of<Lanes<double, n>>(normals.packs[normals.pack_of(place)], 0);
 }
 
 // --------------------------------------------------------------------------------- elements

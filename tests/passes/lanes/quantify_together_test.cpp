@@ -61,6 +61,17 @@ TEST(QuantifyTogether, LeavesTablesThatHaveOtherReaders) {
     }
 }
 
+TEST(QuantifyTogether, FindsOneInTheLoopOfAnother) {
+    passes::Report report;
+    const std::string text = ir::print(
+        quantified(with_interm("forall_{?x : obj} [low(?x)]", "low(obj) : { interm-fluent, bool };",
+                               "\nlow(?x) = w(?x) < 2.0 | exists_{?y : obj} [near(?y)];"),
+                   report));
+    EXPECT_EQ(report["quantifiers over several objects at once"], 2) << text;
+    EXPECT_NE(text.find("scratch.low-forall && "), std::string::npos) << text;
+    EXPECT_NE(text.find("scratch.near-exists)"), std::string::npos) << text;
+}
+
 // A draw needs no table, but the random numbers of neighbours are made for many objects.
 TEST(QuantifyTogether, LeavesDraws) {
     Problem problem = with_interm("exists_{?x : obj} [near(?x)]");

@@ -371,6 +371,29 @@ TEST(Objects, MakeTheirNormalsTogether) {
     expect_shared_normals<40>({median_key, 1, {}});
 }
 
+// Those of one loop do not drive each other out: series 1 and 2 are kept, and 5 has no room.
+TEST(Objects, KeepTheNormalsOfSeveralSeries) {
+    constexpr std::array<std::uint32_t, 3> series = {1, 2, 5};
+    Context<Scalar> context = context_of_step(5);
+    std::array<std::array<double, 64>, 3> drawn{};
+    std::array<int, 3> kept{};
+    for_each_object<64>(context, [&](auto& several, auto x) {
+        for (std::size_t i = 0; i < series.size(); ++i) {
+            const PlaceAmong<64> place{series[i], x};
+            kept[i] += several.normals->of(place).has(place);
+            elements(drawn[i], x) = sample::normal(several, place, 0.0, 1.0);
+        }
+    });
+    for (std::size_t i = 0; i < series.size(); ++i)
+        for (Index x = 0; x < 64; ++x)
+            EXPECT_EQ(drawn[i][static_cast<std::size_t>(x)],
+                      sample::normal(context, {series[i], x}, 0.0, 1.0))
+                << series[i] << ' ' << x;
+    // The first objects make them for all.
+    constexpr int others = 64 / objects_at_once - 1;
+    EXPECT_EQ(kept, (std::array{others, others, 0}));
+}
+
 constexpr std::array<std::array<double, 2>, 3> thresholds_by_kind = {{
     {0.2, 0.4},
     {0.5, 0.5},
