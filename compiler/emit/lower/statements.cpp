@@ -36,8 +36,13 @@ ir::BufferId only_target(const ir::Nest& nest) {
 // (passes/lanes/quantify_together.hpp); null if it fills a table.
 const ir::Apply* quantified(const ir::Program& program, const ir::Nest& nest) {
     const auto* store = std::get_if<ir::Store>(&nest.body->back().form);
-    return store && store->indices.empty() ? std::get_if<ir::Apply>(&program[store->value].form)
-                                           : nullptr;
+    if (!store || !store->indices.empty()) return nullptr;
+    const auto* apply = std::get_if<ir::Apply>(&program[store->value].form);
+    if (!apply || (apply->op != Operator::Or && apply->op != Operator::And) ||
+        ir::buffer_read_by(program[apply->operands.front()]) != store->target)
+        throw std::logic_error(
+            "a loop over several objects stores one value, and does not quantify");
+    return apply;
 }
 
 // Whether the first statement stores what the second one, a loop that quantifies, finds in no

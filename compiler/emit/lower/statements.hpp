@@ -33,7 +33,7 @@ class FunctionBody {
     void statement(const ir::Spread& spread);
     void statement(const ir::Visit& visit);
     void mark(const ir::Mark& mark, const std::string& is_there);
-    // What a loop that quantifies starts from may be known: no statement has to store it.
+    // A loop that quantifies may start where no object has been seen: nothing is read then.
     void over_several_objects(const ir::Loop& loop, bool is_from_start = false);
     void statement(const ir::Call& call);
 

@@ -133,11 +133,11 @@ ir::Program separate_counts(ir::Program program, Report& report) {
     ir::Program separated = CountSeparation(program, found).run();
     if (found.empty()) return program;
     separated = read_places(std::move(separated), found);
-    const bool are_right = are_loops_of_words(separated, separated.reward.body) &&
-                           std::ranges::all_of(separated.step, [&](const ir::Definition& each) {
-                               return are_loops_of_words(separated, each.body);
-                           });
-    if (!are_right) return program;
+    const bool all_are_words = are_loops_of_words(separated, separated.reward.body) &&
+                               std::ranges::all_of(separated.step, [&](const ir::Definition& each) {
+                                   return are_loops_of_words(separated, each.body);
+                               });
+    if (!all_are_words) return program;
     for (const auto& [what, count] : found) report[what] += count;
     return separated;
 }

@@ -13,7 +13,7 @@
 namespace rddlc::passes {
 namespace {
 
-// In operations (Properties::cost): evaluating less takes no longer than a jump that is
+// In operations (Properties::cost): to evaluate a cheaper part takes no longer than a jump that is
 // mispredicted.
 constexpr double worth_a_branch = 48;
 

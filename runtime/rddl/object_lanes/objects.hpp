@@ -76,7 +76,7 @@ struct NormalsOfSeries {
 
     std::uint32_t pack_of(Place place) const { return (place.index - first) / objects_at_once; }
     bool has(Place place) const { return series == place.series && pack_of(place) < count; }
-    // A series is kept until the loop ends, so that those of one loop do not drive each other out.
+    // A series is kept until the loop ends: so the series of a loop do not drive each other out.
     bool may_keep(Place place) const { return series == no_series || series == place.series; }
 };
 struct NormalsOfLoop {

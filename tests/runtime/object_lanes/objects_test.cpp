@@ -371,7 +371,7 @@ TEST(Objects, MakeTheirNormalsTogether) {
     expect_shared_normals<40>({median_key, 1, {}});
 }
 
-// Those of one loop do not drive each other out: series 1 and 2 are kept, and 5 has no room.
+// Series of one loop do not drive each other out: 1 and 2 are kept, and 5 has no room.
 TEST(Objects, KeepTheNormalsOfSeveralSeries) {
     constexpr std::array<std::uint32_t, 3> series = {1, 2, 5};
     Context<Scalar> context = context_of_step(5);
