@@ -5,7 +5,8 @@
 //         hit[b] = dx * X[b] > y                 =>     hit-exists = hit-exists || dx * X[b] > y
 //     violation = bits(hit, 0) != 0                 violation = hit-exists
 //
-// A forall whose bits a mask chooses keeps its table. Nothing else reads the table, and the bools neither fault nor draw.
+// Nothing else reads the table, and the bools neither fault nor draw. A forall whose bits a mask
+// chooses keeps its table.
 #pragma once
 
 #include "ir/ir.hpp"
