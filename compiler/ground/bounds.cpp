@@ -160,8 +160,8 @@ class Narrowing {
                 double limit) {
         ir::Fluent& fluent = result_.fluents[constraint.fluent];
         const std::size_t grounding = row_major(fluent, indices);
-        double& lower = fluent.lower[grounding];
-        double& upper = fluent.upper[grounding];
+        double& lower = fluent.lower.to_change()[grounding];
+        double& upper = fluent.upper.to_change()[grounding];
         const bool whole = fluent.scalar == ir::Scalar::Int;
         const bool strict = is_one_of(constraint.op, {Operator::Less, Operator::Greater});
         if (is_one_of(constraint.op, {Operator::Less, Operator::LessEqual})) {

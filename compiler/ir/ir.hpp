@@ -12,6 +12,7 @@
 // Over 400 lines: readers of the representation find all of it here.
 #pragma once
 
+#include "ir/shared_reals.hpp"
 #include "model/table.hpp"
 #include "support/box.hpp"
 #include "support/source.hpp"
@@ -400,7 +401,7 @@ struct Fluent {
     Table values;
     // The bounds per grounding, from action-preconditions and state-invariants (Semantics 8.4);
     // -inf/+inf without a bound. Only for numeric State and Action fluents; else empty.
-    std::vector<double> lower, upper;
+    SharedReals lower, upper;
 };
 
 // The policy block: from what is observed (the state, unless there are Observation buffers) and

@@ -184,15 +184,15 @@ class Printer {
             const auto finite = [](double bound) {
                 return bound - bound == 0;
             };
-            return std::ranges::any_of(fluent.lower, finite) ||
-                   std::ranges::any_of(fluent.upper, finite);
+            return std::ranges::any_of(*fluent.lower, finite) ||
+                   std::ranges::any_of(*fluent.upper, finite);
         };
         if (std::ranges::none_of(program_.fluents, bounded)) return;
         writer_.line().line("bounds").indent();
         for (const Fluent& fluent : program_.fluents) {
             if (!bounded(fluent)) continue;
-            writer_.line(fmt::format("{} in {} .. {}", fluent.name, limits(fluent.lower),
-                                     limits(fluent.upper)));
+            writer_.line(fmt::format("{} in {} .. {}", fluent.name, limits(*fluent.lower),
+                                     limits(*fluent.upper)));
         }
         writer_.dedent();
     }

@@ -141,8 +141,8 @@ class Description {
                                 .parameter_types = parameters.data(),
                                 .count = count_of(fluent),
                                 .offset = -1,
-                                .lower = fluent.lower.empty() ? nullptr : fluent.lower.data(),
-                                .upper = fluent.upper.empty() ? nullptr : fluent.upper.data(),
+                                .lower = fluent.lower->empty() ? nullptr : fluent.lower->data(),
+                                .upper = fluent.upper->empty() ? nullptr : fluent.upper->data(),
                                 .source = source_of(fluent.span)});
         }
         if (details_)

@@ -200,8 +200,8 @@ class Describer {
         const auto infinite = [](double v) {
             return std::isinf(v);
         };
-        return std::ranges::all_of(fluent.lower, infinite) &&
-               std::ranges::all_of(fluent.upper, infinite);
+        return std::ranges::all_of(*fluent.lower, infinite) &&
+               std::ranges::all_of(*fluent.upper, infinite);
     }
 
     std::string offset(std::size_t index) const {
@@ -233,8 +233,8 @@ class Describer {
             }
             const int range = fluent.object_type ? static_cast<int>(*fluent.object_type) : -1;
             const std::string types = parameter_types(fluent);
-            const std::string lower = bounds(fluent, marks::lower, fluent.lower);
-            const std::string upper = bounds(fluent, marks::upper, fluent.upper);
+            const std::string lower = bounds(fluent, marks::lower, *fluent.lower);
+            const std::string upper = bounds(fluent, marks::upper, *fluent.upper);
             table.push_back(
                 braces("", {tree::text(fluent.name), word(role_constant(fluent.role)),
                             word(scalar_constant(fluent.scalar)), number(range),
