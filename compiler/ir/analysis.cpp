@@ -412,12 +412,12 @@ bool depends_on_none_but(const Properties& properties, std::span<const VariableI
     });
 }
 
-std::vector<NodeId> conjuncts_of(const Program& program, NodeId id) {
+std::vector<NodeId> parts_of(const Program& program, NodeId id, Operator op) {
     const auto* apply = std::get_if<Apply>(&program[id].form);
-    if (!apply || apply->op != Operator::And) return {id};
+    if (!apply || apply->op != op) return {id};
     std::vector<NodeId> all;
     for (const NodeId operand : apply->operands)
-        std::ranges::copy(conjuncts_of(program, operand), std::back_inserter(all));
+        std::ranges::copy(parts_of(program, operand, op), std::back_inserter(all));
     return all;
 }
 

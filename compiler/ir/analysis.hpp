@@ -61,8 +61,9 @@ std::optional<BufferId> buffer_read_by(const Node& node);
 // Whether one of these is among the variables that a value depends on; whether no other one is.
 bool depends_on_any(const Properties& properties, std::span<const VariableId> variables);
 bool depends_on_none_but(const Properties& properties, std::span<const VariableId> variables);
-// The parts of a conjunction, which may be one alone.
-std::vector<NodeId> conjuncts_of(const Program& program, NodeId id);
+// The operands of a chain of one operator, such as the conditions that && joins. A node that is no
+// such chain is its only part.
+std::vector<NodeId> parts_of(const Program& program, NodeId id, Operator op);
 // The variable that a node binds in its body (Reduce, DiscreteOver).
 std::optional<VariableId> bound_variable(const Node& node);
 

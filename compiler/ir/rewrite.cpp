@@ -184,11 +184,10 @@ NodeId replace_in(Builder& builder, NodeId id, std::map<NodeId, NodeId>& known, 
     return known[id] = builder.rebuild(node);
 }
 
-NodeId conjunction_of(Builder& builder, const std::vector<NodeId>& parts) {
-    if (parts.empty()) return builder.constant(true);
+NodeId joined(Builder& builder, Operator op, std::span<const NodeId> parts) {
+    if (parts.empty()) return builder.constant(op == Operator::And);
     NodeId all = parts.front();
-    for (std::size_t k = 1; k < parts.size(); ++k)
-        all = builder.apply(Operator::And, {all, parts[k]});
+    for (const NodeId part : parts.subspan(1)) all = builder.apply(op, {all, part});
     return all;
 }
 

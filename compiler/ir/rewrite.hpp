@@ -8,6 +8,7 @@
 #include <functional>
 #include <map>
 #include <optional>
+#include <span>
 
 namespace rddlc::ir {
 
@@ -24,9 +25,9 @@ NodeId replace_in(Builder& builder, NodeId id, std::map<NodeId, NodeId>& known);
 // with replacements in its operands. So the outermost nodes with a replacement are replaced.
 using Find = std::function<std::optional<NodeId>(NodeId)>;
 NodeId replace_in(Builder& builder, NodeId id, std::map<NodeId, NodeId>& known, const Find& find);
-// All parts joined by And, from the first to the last; true without any. The reverse of
-// conjuncts_of (analysis.hpp).
-NodeId conjunction_of(Builder& builder, const std::vector<NodeId>& parts);
+// All parts joined by And or Or, from the first to the last; what changes neither where there are
+// no parts. The reverse of parts_of (analysis.hpp).
+NodeId joined(Builder& builder, Operator op, std::span<const NodeId> parts);
 
 // Drops unreachable nodes.
 Program collect_garbage(Program program);

@@ -94,7 +94,7 @@ class Joining {
     std::optional<Image> image_of(const ir::Store& store, const Variables& variables) {
         const auto nest = ir::reduction_nest(program_, store.value);
         if (!nest || nest->op != Reduction::Exists || !is_plain(store.value)) return std::nullopt;
-        std::vector<ir::NodeId> factors = ir::conjuncts_of(program_, nest->body);
+        std::vector<ir::NodeId> factors = ir::parts_of(program_, nest->body, Operator::And);
         const auto source =
             std::ranges::find_if(factors, [&](ir::NodeId each) { return is_source(each, *nest); });
         if (source == factors.end()) return std::nullopt;

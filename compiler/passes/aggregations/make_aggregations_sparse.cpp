@@ -244,7 +244,7 @@ class Rewriting {
             const ir::NodeId is_zero = builder_.apply(Operator::Equal, {term, zero});
             are_finite.push_back(builder_.reduce(Reduction::ForAll, variable, is_zero));
         }
-        const ir::NodeId all = ir::conjunction_of(builder_, are_finite);
+        const ir::NodeId all = ir::joined(builder_, Operator::And, are_finite);
         const ir::NodeId sparse = over_entries(op, body, scope);
         return builder_.select(all, sparse, dense(id, outer), ir::Evaluated::MostlyFirst);
     }

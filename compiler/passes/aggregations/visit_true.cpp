@@ -179,7 +179,7 @@ class Visiting {
         if (variables.size() != 2 || properties.may_fault || properties.random ||
             !is_known_before(nest->body))
             return std::nullopt;
-        Factors factors = ir::conjuncts_of(program_, nest->body);
+        Factors factors = ir::parts_of(program_, nest->body, Operator::And);
         const auto few =
             std::ranges::find_if(factors, [&](ir::NodeId each) { return is_few(each); });
         if (few == factors.end() || !reads_large_table(nest->body)) return std::nullopt;
@@ -222,7 +222,7 @@ class Visiting {
         if (!ir::is_droppable(builder_.properties(id)) || !is_known_before(id) ||
             program_[object].size <= bools_in_a_word)
             return std::nullopt;
-        Factors factors = ir::conjuncts_of(program_, id);
+        Factors factors = ir::parts_of(program_, id, Operator::And);
         const auto few = std::ranges::find_if(factors, [&](ir::NodeId each) {
             return is_few(each) && visited_.contains(table_of(each)) &&
                    builder_.properties(each).free_variables == std::vector{object};

@@ -36,19 +36,6 @@ std::vector<bool> parts_of_conditions(const ir::Program& program) {
     return is_part;
 }
 
-void add_parts(const ir::Program& program, ir::NodeId id, Operator op,
-               std::vector<ir::NodeId>& parts) {
-    if (connective_of(program[id]) != op) return parts.push_back(id);
-    for (const ir::NodeId operand : ir::operands_of(program[id]))
-        add_parts(program, operand, op, parts);
-}
-
-ir::NodeId joined(ir::Builder& builder, Operator op, std::span<const ir::NodeId> parts) {
-    ir::NodeId whole = parts.front();
-    for (const ir::NodeId part : parts.subspan(1)) whole = builder.apply(op, {whole, part});
-    return whole;
-}
-
 // Whether it has an aggregation that depends on all of these variables. Another one does not
 // change in some loop around the condition, and is computed before that loop.
 bool has_loop(const ir::Builder& builder, ir::NodeId id,
@@ -67,8 +54,7 @@ bool has_loop(const ir::Builder& builder, ir::NodeId id,
 }
 
 std::optional<ir::NodeId> tested_first(ir::Builder& builder, ir::NodeId id, Operator op) {
-    std::vector<ir::NodeId> parts;
-    add_parts(builder.program(), id, op, parts);
+    std::vector<ir::NodeId> parts = ir::parts_of(builder.program(), id, op);
     const auto may_fault = [&](ir::NodeId part) {
         return builder.properties(part).may_fault;
     };
@@ -77,8 +63,8 @@ std::optional<ir::NodeId> tested_first(ir::Builder& builder, ir::NodeId id, Oper
         return ir::is_cheap(builder.properties(part));
     });
     if (dear == parts.begin() || dear == parts.end()) return std::nullopt;
-    const ir::NodeId test = joined(builder, op, std::span(parts.begin(), dear));
-    const ir::NodeId rest = joined(builder, op, std::span(dear, parts.end()));
+    const ir::NodeId test = ir::joined(builder, op, std::span(parts.begin(), dear));
+    const ir::NodeId rest = ir::joined(builder, op, std::span(dear, parts.end()));
     if (builder.properties(rest).cost < worth_a_branch ||
         !has_loop(builder, rest, builder.properties(test).free_variables))
         return std::nullopt;

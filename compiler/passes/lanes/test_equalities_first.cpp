@@ -45,10 +45,10 @@ std::optional<ir::NodeId> take_equality(ir::Builder& builder, std::vector<ir::No
 
 std::optional<ir::NodeId> tested_first(ir::Builder& builder, ir::NodeId id) {
     if (!ir::is_droppable(builder.properties(id))) return std::nullopt;
-    std::vector<ir::NodeId> parts = ir::conjuncts_of(builder.program(), id);
+    std::vector<ir::NodeId> parts = ir::parts_of(builder.program(), id, Operator::And);
     const auto differs = take_equality(builder, parts);
     if (!differs) return std::nullopt;
-    const ir::NodeId rest = ir::conjunction_of(builder, parts);
+    const ir::NodeId rest = ir::joined(builder, Operator::And, parts);
     if (builder.properties(rest).cost < worth_a_jump) return std::nullopt;
     return builder.select(*differs, builder.constant(false), rest, ir::Evaluated::MostlyFirst);
 }
