@@ -73,32 +73,35 @@ class Gathering {
             });
     }
 
-    // A draw whose probabilities become chances: those of a table in a loop as words, and those of
-    // one of two tables in a loop of other values.
+    // A draw whose probabilities become chances.
     std::optional<ir::NodeId> drawn(ir::NodeId id, ir::Sample sample, const ir::Nest& nest,
                                     std::map<ir::NodeId, ir::NodeId>& known) {
         if (sample.distribution != Distribution::Bernoulli) return std::nullopt;
-        const ir::Node& p = program_[sample.parameters.front()];
-        ir::NodeId chances;
-        if (const auto* load = std::get_if<ir::Load>(&p.form)) {
-            if (!are_words_ || !are_chances(*load, nest) || are_all_random(*load))
-                return std::nullopt;
-            ++report_["draws that are known where they are certain"];
-            chances = chances_of(*load);
-        } else {
-            const auto* found = std::get_if<ir::Select>(&p.form);
-            if (are_words_ || !found) return std::nullopt;
-            const ir::Select select = *found;
-            const auto* first = std::get_if<ir::Load>(&program_[select.then_value].form);
-            const auto* second = std::get_if<ir::Load>(&program_[select.else_value].form);
-            if (!first || !second || !are_chances(*first, nest) || !are_chances(*second, nest))
-                return std::nullopt;
-            ++report_["draws by one of two tables"];
-            const ir::NodeId yes = chances_of(*first);
-            const ir::NodeId no = chances_of(std::get<ir::Load>(program_[select.else_value].form));
-            chances = builder_.select(gathered(select.condition, nest, known), yes, no);
-        }
-        return builder_.sample(program_[id].type, sample.distribution, sample.place, {chances});
+        const ir::NodeId p = sample.parameters.front();
+        const auto chances =
+            are_words_ ? chances_of_table(p, nest) : chances_of_one_of_two(p, nest, known);
+        if (!chances) return std::nullopt;
+        return builder_.sample(program_[id].type, sample.distribution, sample.place, {*chances});
+    }
+    std::optional<ir::NodeId> chances_of_table(ir::NodeId id, const ir::Nest& nest) {
+        const auto* load = std::get_if<ir::Load>(&program_[id].form);
+        if (!load || !are_chances(*load, nest) || are_all_random(*load)) return std::nullopt;
+        ++report_["draws that are known where they are certain"];
+        return chances_of(*load);
+    }
+    std::optional<ir::NodeId> chances_of_one_of_two(ir::NodeId id, const ir::Nest& nest,
+                                                    std::map<ir::NodeId, ir::NodeId>& known) {
+        const auto* found = std::get_if<ir::Select>(&program_[id].form);
+        if (!found) return std::nullopt;
+        const ir::Select select = *found;  // new nodes move the others
+        const auto* first = std::get_if<ir::Load>(&program_[select.then_value].form);
+        const auto* second = std::get_if<ir::Load>(&program_[select.else_value].form);
+        if (!first || !second || !are_chances(*first, nest) || !are_chances(*second, nest))
+            return std::nullopt;
+        ++report_["draws by one of two tables"];
+        const ir::Load other = *second;
+        const ir::NodeId yes = chances_of(*first), no = chances_of(other);
+        return builder_.select(gathered(select.condition, nest, known), yes, no);
     }
     ir::NodeId chances_of(ir::Load load) {
         return builder_.load(load.buffer, std::move(load.indices), ir::Gather::Chances);
