@@ -14,7 +14,6 @@ using solvers::require_done;
 
 namespace {
 
-constexpr std::int64_t usual_depth = 40;
 // The part of the memory limit that the tree of an episode may take.
 constexpr std::size_t memory_share = 32;
 // Deviations of actions near the best one, in half widths of bounds: one after the other.

@@ -17,6 +17,9 @@ inline constexpr double least_tried = 0.2;
 // others, 2020), whose values lie between 0 and 1.
 inline constexpr double usual_exploration = 0.5, exploration_by_values = 1.25;
 
+// The depth of trees, if the user gives none.
+inline constexpr std::int64_t usual_depth = 40;
+
 // The step up to which a search looks ahead, `depth` steps at most, where `left` remain and the
 // tree of the decision before looked ahead to `known_end`: to the same, if that is far enough
 // ahead.

@@ -1,6 +1,7 @@
 #include "planners/uct/tree_and_plans.hpp"
 
 #include "planners/simulation/random_stream.hpp"
+#include "planners/uct/search_rules.hpp"
 #include "solvers/batches/batch.hpp"
 
 #include <algorithm>
@@ -13,8 +14,8 @@ using solvers::require_done;
 
 namespace {
 
-// Draws of what no-op is worth; and the depth of trees, if the user gives none.
-constexpr std::int64_t noop_draws = 4, depth_of_tree = 40;
+// Draws of what no-op is worth.
+constexpr std::int64_t noop_draws = 4;
 // No-op is not played for more steps, or a greater part of the budget.
 constexpr std::int64_t longest_noop = 1000, least_parts = 10;
 // With fewer steps or trials, the tree has all of them.
@@ -75,7 +76,7 @@ TreeAndPlans::TreeAndPlans(const PlannerContext& context, const UctOptions& opti
 void TreeAndPlans::play_noop(const DecisionPoint& point) {
     noop_returns_.clear();
     noop_steps_ = 0;
-    const std::int64_t depth = std::min(point.left, options_.horizon.value_or(depth_of_tree));
+    const std::int64_t depth = std::min(point.left, options_.horizon.value_or(usual_depth));
     if (depth > longest_noop ||
         depth * noop_.count() * least_parts > options_.budget.steps.value_or(most_steps))
         return;

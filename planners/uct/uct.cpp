@@ -13,8 +13,7 @@ namespace rddlc::planners {
 
 namespace {
 
-constexpr std::int64_t first_depth = 40;
-// The same where new states are valued to the end of the episode, since the search ends with 0.
+// The depth where new states are valued to the end of the episode, since the search ends with 0.
 constexpr std::int64_t value_depth = 200;
 // Steps of a lookahead in the determinised problem, at most.
 constexpr std::int64_t deepest_lookahead = 100;
@@ -149,7 +148,7 @@ void Uct::choose_memory(const DecisionPoint& point) {
     }
     memory_ = &*memory;
     step_ = point.step;
-    const std::int64_t depth = options_.horizon.value_or(state_values_ ? value_depth : first_depth);
+    const std::int64_t depth = options_.horizon.value_or(state_values_ ? value_depth : usual_depth);
     end_ = end_of_search(step_, point.left, depth, memory->end);
     if (end_ != memory->end) {
         memory->tree.clear();
