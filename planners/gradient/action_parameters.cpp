@@ -57,7 +57,7 @@ ActionParameters::ActionParameters(const rddl_simulator& simulator,
         if (kinds_[i] != Kind::Fixed || column.object_count > 0) continue;
         if (column.scalar == RDDL_BOOL) {
             kinds_[i] = Kind::Bool;
-            defaults_[i] = default_values_[i] > 0.5f ? first_bool : -first_bool;
+            defaults_[i] = is_true_by_default(i) ? first_bool : -first_bool;
         } else if (column.upper > column.lower && std::isfinite(column.upper - column.lower)) {
             kinds_[i] = Kind::Int;
             heads_[i].range = solvers::RealHead::Range::Bounded;
@@ -105,7 +105,7 @@ void ActionParameters::values(std::span<const double> parameters, std::span<doub
     for (const Group& group : groups_) {
         write_chances(group, parameters, values);
         for (const std::size_t i : group.members)
-            if (default_values_[i] > 0.5f) values[i] = 1 - values[i];
+            if (is_true_by_default(i)) values[i] = 1 - values[i];
     }
 }
 
@@ -118,7 +118,7 @@ void ActionParameters::pull_back(std::span<const double> parameters,
     for (const Group& group : groups_) {
         write_chances(group, parameters, chances);
         const auto sign = [this](std::size_t i) {
-            return default_values_[i] > 0.5f ? -1.0 : 1.0;
+            return is_true_by_default(i) ? -1.0 : 1.0;
         };
         double mean = 0;
         for (const std::size_t i : group.members) mean += chances[i] * sign(i) * adjoint[i];
@@ -149,7 +149,7 @@ void ActionParameters::write_chances(const Group& group, std::span<const double>
 }
 
 double ActionParameters::change_logit(std::size_t i, double parameter) const {
-    return default_values_[i] > 0.5f ? -bool_slope * parameter : bool_slope * parameter;
+    return is_true_by_default(i) ? -bool_slope * parameter : bool_slope * parameter;
 }
 
 void ActionParameters::project(std::span<double> parameters) const {
@@ -188,7 +188,7 @@ void ActionParameters::limit_changes(std::span<double> parameters) const {
             if (chance <= least) continue;
             const double less = std::max(chance - (sum - limit) / movable, least);
             const double parameter = std::log(less / (1 - less)) / bool_slope;
-            parameters[i] = default_values_[i] > 0.5f ? -parameter : parameter;
+            parameters[i] = is_true_by_default(i) ? -parameter : parameter;
         }
     }
 }
@@ -206,7 +206,7 @@ float ActionParameters::written(std::size_t i, double parameter, double threshol
     switch (kinds_[i]) {
         case Kind::Bool:
             if (chance_to_differ(i, parameter) > threshold)
-                return default_values_[i] > 0.5f ? 0.0f : 1.0f;
+                return is_true_by_default(i) ? 0.0f : 1.0f;
             break;
         case Kind::Real:
             return static_cast<float>(value(i, parameter));

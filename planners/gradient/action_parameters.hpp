@@ -44,8 +44,8 @@ class ActionParameters {
     // SOGBOFA: Cui and Khardon, 2016).
     void project(std::span<double> parameters) const;
     // Values of the action; bools differ from their default if they are likelier to than this.
-    // Of bools of which one may change, that is the likeliest. Where more values differ than
-    // max-nondef-actions allows, the smallest changes are not made.
+    // If only one of several bools may change, the likeliest one does. Where more values differ
+    // than max-nondef-actions allows, the smallest changes are not made.
     void write(std::span<const double> parameters, double threshold, float* values) const;
 
   private:
@@ -56,6 +56,7 @@ class ActionParameters {
         bool may_be_none;
     };
 
+    bool is_true_by_default(std::size_t i) const { return default_values_[i] > 0.5f; }
     double value(std::size_t i, double parameter) const;
     double slope(std::size_t i, double parameter) const;
     double change_logit(std::size_t i, double parameter) const;
