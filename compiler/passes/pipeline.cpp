@@ -131,7 +131,7 @@ constexpr Pass in_order[] = {
      "an expression of the interval in which a number lies becomes a binary search",
      {"index_directly"},
      "an equality is better than an interval",
-     leaves_out_zeros},
+     leaves_out_zeros | may_find_more},
     {"count_bools",
      Phase::Aggregations,
      count_bools,

@@ -107,19 +107,23 @@ class OfPasses(unittest.TestCase):
             self.assertEqual(self.checker.ask({"text": text.replace("MOST", most)}).outcome, outcome)
 
     def test_each_pass_changes_something_in_a_model_of_a_hundred(self):
-        """The number of problems in which it runs, with slack: in one of 200 at least, of both
-        generators."""
-        for generator in GENERATORS:
-            changed, models = Counter(), Counter()
-            for seed in range(600):
-                problem = fuzz_models.problem_of("passes", seed, generator)
-                answer = self.checker.check(problem, seed)
-                self.assertNotEqual(answer.outcome, "rejected", answer.findings)
-                changed.update(answer.changed.keys())
-                models.update(["all", problem.flavour])
-            for name, only_fast_math in self.passes():
-                with self.subTest(generator, name=name):
-                    self.assertGreaterEqual(changed[name], models["finite" if only_fast_math else "all"] / 200)
+        """With slack: in one of 200 at least, of one generator at least."""
+        shares = [self.shares_changed(generator, 600) for generator in GENERATORS]
+        for name, only_fast_math in self.passes():
+            with self.subTest(name=name):
+                share = max(changed[name] / models["finite" if only_fast_math else "all"] for changed, models in shares)
+                self.assertGreaterEqual(share, 1 / 200)
+
+    def shares_changed(self, generator, count):
+        """The number of models that each pass changes, and the number of those in which it runs."""
+        changed, models = Counter(), Counter()
+        for seed in range(count):
+            problem = fuzz_models.problem_of("passes", seed, generator)
+            answer = self.checker.check(problem, seed)
+            self.assertNotEqual(answer.outcome, "rejected", answer.findings)
+            changed.update(answer.changed.keys())
+            models.update(["all", problem.flavour])
+        return changed, models
 
     def passes(self):
         lines = subprocess.run([self.checker.program, "--list"], capture_output=True, text=True, check=True)

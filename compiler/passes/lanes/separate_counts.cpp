@@ -58,6 +58,8 @@ class CountSeparation {
     }
 
     std::optional<ir::NodeId> counted(ir::NodeId id, ir::Block& before) {
+        // A weight of a draw over objects depends on the object, which `before` does not know.
+        if (!builder_.properties(id).free_variables.empty()) return std::nullopt;
         const auto nest = ir::whole_reduction_nest(program_, id, Reduction::Sum);
         if (!nest) return std::nullopt;
         return sum(nest->body, {nest->variables, nullptr}, before);

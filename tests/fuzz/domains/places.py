@@ -80,4 +80,5 @@ def robots(draft: Draft) -> None:
     if draft.chance(0.4):
         reached = boolean("(%s ^ %s)", reached, draft.some_bool(draft.pick([{}, {"?r": robot}, {"?p": spot}, {FROM: spot}])))
     draft.define(place, ("?r", "?p"), over("exists", f"{FROM} : {spot}, ?w", way.name, reached))
-    draft.earn(over("sum", f"?r : {robot}, ?p", spot, boolean("%s", draft.at(place, "?r", "?p"))))
+    there = draft.pick([draft.at(place, "?r", "?p"), boolean("~%s", draft.at(place, "?r", "?p")), boolean("(%s ^ %s)", draft.at(place, "?r", "?p"), draft.some_bool({"?r": robot}))])
+    draft.earn(over(draft.pick(["sum", "sum", "exists", "forall"]), f"?r : {robot}, ?p", spot, there))
