@@ -135,7 +135,7 @@ ir::Program tabulate_constants(ir::Program program, Report& report) {
     std::map<ir::NodeId, ir::BufferId> buffers;
     ir::NewTables new_tables(program);
     for (const auto& [id, table] : tables) {
-        buffers[id] = new_tables.constant(table.buffer);
+        if (!table.buffer.values.is_uniform()) buffers[id] = new_tables.constant(table.buffer);
         ++report["tables computed"];
     }
     return ir::rewrite(
@@ -143,9 +143,10 @@ ir::Program tabulate_constants(ir::Program program, Report& report) {
         [&](ir::Builder& builder, ir::NodeId id, const ir::Node&) -> std::optional<ir::NodeId> {
             const auto table = tables.find(id);
             if (table == tables.end()) return std::nullopt;
+            const auto& [variables, buffer] = table->second;
+            if (buffer.values.is_uniform()) return builder.constant(buffer.values[0]);
             std::vector<ir::NodeId> indices;
-            for (ir::VariableId variable : table->second.variables)
-                indices.push_back(builder.index(variable));
+            for (ir::VariableId variable : variables) indices.push_back(builder.index(variable));
             return builder.load(buffers.at(id), std::move(indices));
         });
 }

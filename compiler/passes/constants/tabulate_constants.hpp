@@ -6,8 +6,9 @@
 //     x = sum[s in segment](x-table[s] * real(state.on[s]))
 //
 // The pass does so if that saves something and the table is not much larger than those that it is
-// made from. An expression that faults for any combination of the variables stays. A table is named
-// after the fluent in whose CPF the expression occurs first.
+// made from. A table of equal elements is one constant. An expression that faults for any
+// combination of the variables stays. A table is named after the fluent in whose CPF the expression
+// occurs first.
 #pragma once
 
 #include "ir/ir.hpp"

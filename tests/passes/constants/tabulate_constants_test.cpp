@@ -34,6 +34,12 @@ TEST(TabulateConstants, HasADimensionForEachVariable) {
               "real(sum[o in obj](sum[u in obj](int(x-table[u, o] && state.p[o]))))");
 }
 
+TEST(TabulateConstants, MakesATableOfEqualElementsAConstant) {
+    const Texts x = of_x("sum_{?o : obj} [v(?o) * (W(?o) * 0 + 2)]", passes::tabulate_constants);
+    EXPECT_EQ(x.before, "sum[o in obj](state.v[o] * (W[o] * 0.0 + 2.0))");
+    EXPECT_EQ(x.after, "sum[o in obj](state.v[o] * 2.0)");
+}
+
 TEST(TabulateConstants, LeavesWhatSavesNothing) {
     const Texts x =
         of_x("sum_{?o : obj, ?u : obj} [v(?o) * W(?o) * (?o == ?u)]", passes::tabulate_constants);
