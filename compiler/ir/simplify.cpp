@@ -1,6 +1,8 @@
 #include "ir/simplify.hpp"
 
 #include <algorithm>
+#include <iterator>
+#include <ranges>
 #include <utility>
 #include <vector>
 
@@ -178,7 +180,7 @@ class Simplifier {
         if (is(a_, false) && droppable(b_)) return a_;
         if (is(b_, false) && droppable(a_)) return b_;
         if (may_fault(b_)) return builder_.select(a_, b_, builder_.constant(false));
-        return std::nullopt;
+        return absorption(Operator::Or);
     }
 
     std::optional<NodeId> either() {
@@ -187,7 +189,55 @@ class Simplifier {
         if (is(a_, true) && droppable(b_)) return a_;
         if (is(b_, true) && droppable(a_)) return b_;
         if (may_fault(b_)) return builder_.select(a_, builder_.constant(true), b_);
-        return std::nullopt;
+        return absorption(Operator::And);
+    }
+
+    // x || (x && y) is x, and so is x && (x || y): `dual` is the operator inside. The parts of a
+    // chain may come in any order. Long chains are not looked through.
+    std::optional<NodeId> absorption(Operator dual) {
+        const auto first = few_parts(a_, op_), last = few_parts(b_, op_);
+        if (!first || !last) return std::nullopt;
+        const auto kept_last = not_absorbed(*last, *first, dual);
+        if (kept_last.empty()) return a_;
+        auto kept = not_absorbed(*first, kept_last, dual);
+        if (kept.size() + kept_last.size() == first->size() + last->size()) return std::nullopt;
+        std::ranges::copy(kept_last, std::back_inserter(kept));
+        NodeId all = kept.front();
+        for (const NodeId part : kept | std::views::drop(1)) all = builder_.apply(op_, {all, part});
+        return all;
+    }
+    // The parts that none of the others decides.
+    std::vector<NodeId> not_absorbed(const std::vector<NodeId>& parts,
+                                     const std::vector<NodeId>& others, Operator dual) const {
+        std::vector<NodeId> kept;
+        std::ranges::copy_if(parts, std::back_inserter(kept), [&](NodeId part) {
+            return !droppable(part) || std::ranges::none_of(others, [&](NodeId other) {
+                return has_parts_of(part, other, dual);
+            });
+        });
+        return kept;
+    }
+    bool has_parts_of(NodeId whole, NodeId other, Operator op) const {
+        const auto all = few_parts(whole, op), some = few_parts(other, op);
+        return all && some && std::ranges::all_of(*some, [&](NodeId part) {
+                   return std::ranges::find(*all, part) != all->end();
+               });
+    }
+    // The operands of a chain of one operator, from left to right; nothing of a long chain.
+    std::optional<std::vector<NodeId>> few_parts(NodeId id, Operator op) const {
+        constexpr std::size_t most = 12;
+        std::vector<NodeId> parts, left{id};
+        while (!left.empty()) {
+            const NodeId next = left.back();
+            left.pop_back();
+            const auto* apply = std::get_if<Apply>(&node(next).form);
+            if (!apply || apply->op != op)
+                parts.push_back(next);
+            else
+                left.insert(left.end(), apply->operands.rbegin(), apply->operands.rend());
+            if (parts.size() + left.size() > most) return std::nullopt;
+        }
+        return parts;
     }
 
     std::optional<NodeId> implication() {

@@ -22,6 +22,7 @@ namespace rddlc::ir {
 //     a => b                                 !a || b, where neither is constant
 //     x == x, x <=> x (not on reals)         true, unless x draws or may fault
 //     min[x, x], x && x                      x
+//     x || (x && y), x && (x || y)           x, in short chains, unless y draws or may fault
 std::optional<NodeId> simplify(Builder& builder, Operator op, std::span<const NodeId> operands);
 
 // x of 0.0 + x; any other node is itself. The same number, except for the sign of a zero.

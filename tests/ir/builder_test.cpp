@@ -45,6 +45,36 @@ TEST_F(BuilderTest, GivesEqualExpressionsEqualIds) {
     EXPECT_NE(w.integer(1), w.boolean(true));
 }
 
+// A part of a chain is left out if another part decides it.
+TEST_F(BuilderTest, AbsorbsPartsOfChains) {
+    const auto both = [&](NodeId a, NodeId b) {
+        return w.apply(Operator::And, a, b);
+    };
+    const auto either = [&](NodeId a, NodeId b) {
+        return w.apply(Operator::Or, a, b);
+    };
+    const NodeId few = w.apply(Operator::Less, count(), w.integer(3));
+    const NodeId low = w.apply(Operator::Less, level(), w.real(0.5));
+    EXPECT_EQ(both(both(up(), few), up()), both(up(), few));
+    EXPECT_EQ(either(up(), both(few, up())), up());
+    EXPECT_EQ(either(both(few, up()), up()), up());
+    EXPECT_EQ(both(up(), either(few, up())), up());
+    EXPECT_EQ(either(either(both(up(), few), low), up()), either(low, up()));
+    EXPECT_EQ(either(both(both(up(), few), low), both(low, up())), both(low, up()));
+    const NodeId unlike = either(both(up(), few), both(few, low));
+    EXPECT_EQ(text(unlike), text(both(up(), few)) + " || " + text(both(few, low)));
+}
+
+TEST_F(BuilderTest, AbsorbsNoFaultsAndNoPartsOfLongChains) {
+    const NodeId absorbed = w.apply(Operator::And, fallible(), up());
+    EXPECT_NE(w.apply(Operator::Or, absorbed, up()), up());
+    NodeId chain = up();
+    for (std::int64_t least_count = 1; least_count < 20; ++least_count)
+        chain = w.apply(Operator::And, chain,
+                        w.apply(Operator::NotEqual, count(), w.integer(least_count)));
+    EXPECT_NE(w.apply(Operator::And, chain, up()), chain);
+}
+
 // An index of a loop lies between 0 and the number of objects.
 TEST_F(BuilderTest, KnowsTheOrderOfIntsFromTheirRanges) {
     const NodeId c = w.builder().index(w.c);

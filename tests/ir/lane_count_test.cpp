@@ -9,11 +9,11 @@ namespace rddlc::ir {
 namespace {
 
 struct LaneCountTest : testing::Test {
-    // running' = running ^ ~running | ..., so many times over.
+    // running' = running ~= ~seen | ..., so many times over: no part decides another one.
     NodeId connectives(int count) {
         NodeId value = w.at(w.running, w.c);
         for (int k = 0; k < count; ++k)
-            value = w.apply(k % 2 == 0 ? Operator::And : Operator::Or, value,
+            value = w.apply(k % 2 == 0 ? Operator::NotEqual : Operator::Or, value,
                             w.apply(Operator::Not, w.at(k % 3 == 0 ? w.seen : w.reboot, w.c)));
         return value;
     }

@@ -234,8 +234,7 @@ RDDL_INLINE std::uint64_t drawn_by(const Words& even, const Words& odd,
 // compared apart, as their numbers are made.
 template <class R, int n, class Chances>
 RDDL_INLINE Mask<n> drawn(const Context<Objects<n, R>>& context, Place place, const Chances& p) {
-    constexpr int pairs = std::max(n / 2, simd::lanes_of<std::uint64_t>);
-    using Word = Lanes<std::uint64_t, std::max(pairs, 8)>;
+    using Word = WordsFor<std::max(n / 2, FewWords::width)>;
     const Word first{std::uint64_t{place.index / 2}};
     philox::Block<Word> words;
     context.draws.schedule.generate(place.series,

@@ -12,6 +12,7 @@
 #include <rddl/random/random.hpp>
 #include <rddl/values/bits.hpp>
 #include <rddl/values/context.hpp>
+#include <rddl/values/few_words.hpp>
 #include <rddl/values/pack_ops.hpp>
 #include <rddl/values/reductions.hpp>
 
@@ -122,13 +123,12 @@ RDDL_INLINE Lanes<std::int64_t, n> in_range(const Context<Objects<n, R>>& contex
 // counter value are those of two neighbours.
 template <int n, class R>
 RDDL_INLINE Lanes<R, n> uniform_at(Context<Objects<n, R>>& context, Place place) {
-    constexpr int pairs = std::max(n / 2, simd::lanes_of<std::uint64_t>);
-    using Word = Lanes<std::uint64_t, pairs>;
+    using Word = WordsFor<n / 2>;
     if (context.draws.are_medians) return Lanes<R, n>{R(median_number)};
     const Word first{std::uint64_t{place.index / 2}};
     philox::Block<Word> words;
-    context.draws.schedule.generate(place.series,
-                                    first + Word::load(detail::lane_numbers<pairs>.data()), words);
+    context.draws.schedule.generate(
+        place.series, first + Word::load(detail::lane_numbers<Word::width>.data()), words);
     const auto numbers = unit_real<R>(
         interleaved(join_lower_halves(words[0], words[1]), join_lower_halves(words[2], words[3])));
     return part_of<Lanes<R, n>>(numbers, 0);

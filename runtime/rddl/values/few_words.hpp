@@ -5,7 +5,9 @@
 #include <rddl/lanes/pack.hpp>
 #include <rddl/values/pack_ops.hpp>
 
+#include <algorithm>
 #include <cstdint>
+#include <type_traits>
 
 namespace rddl::inline RDDL_SIMD_LEVEL {
 
@@ -26,6 +28,9 @@ struct FewWords {
         return words;
     }
 
+    friend RDDL_INLINE FewWords operator+(FewWords a, FewWords b) {
+        return FewWords(a.part + b.part);
+    }
     friend RDDL_INLINE FewWords operator^(FewWords a, FewWords b) {
         return FewWords(a.part ^ b.part);
     }
@@ -44,15 +49,30 @@ RDDL_ALWAYS_INLINE FewWords join_lower_halves(FewWords low, FewWords high) {
     const auto moved = _mm256_shuffle_epi32((__m256i)high.part, 0xA0);
     return FewWords((FewWords::Vector)_mm256_blend_epi32((__m256i)low.part, moved, 0xAA));
 }
+// a[0], b[0], a[1], b[1], ...
+RDDL_ALWAYS_INLINE Lanes<std::uint64_t, 8> interleaved(FewWords a, FewWords b) {
+    Lanes<std::uint64_t, 8> result;
+    result.part[0] = simd::interleave_half((simd::Words)_mm512_castsi256_si512((__m256i)a.part),
+                                           (simd::Words)_mm512_castsi256_si512((__m256i)b.part), 0);
+    return result;
+}
 // Which words are less than those in memory; all are less than 2^63.
 RDDL_ALWAYS_INLINE std::uint64_t less_words(FewWords a, const std::int64_t* limits) {
     return _mm256_cmplt_epi64_mask((__m256i)a.part,
                                    _mm256_loadu_si256(reinterpret_cast<const __m256i_u*>(limits)));
 }
 
+// The least number of lanes that hold so many words.
+template <int count>
+using WordsFor =
+    std::conditional_t<count <= FewWords::width, FewWords,
+                       Lanes<std::uint64_t, std::max(count, simd::lanes_of<std::uint64_t>)>>;
+
 #else
 
 using FewWords = Lanes<std::uint64_t, 8>;
+template <int count>
+using WordsFor = Lanes<std::uint64_t, std::max(count, simd::lanes_of<std::uint64_t>)>;
 
 #endif
 

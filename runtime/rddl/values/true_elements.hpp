@@ -94,14 +94,28 @@ RDDL_INLINE T sum_over_true(Context<L>& context, const std::array<Mask<width>, n
     return total;
 }
 
-// The true ones of a row, to be visited: their bits in words, or in packs the row as it is.
+// The true ones of a row, to be visited: the first one (n: there is none) and the bits of the
+// others in words, or in packs the row as it is. Mostly there are no others.
 template <std::size_t n>
 struct TrueElements {
-    std::array<std::uint64_t, (n + 63) / 64> words;
+    Index first = static_cast<Index>(n);
+    std::array<std::uint64_t, (n + 63) / 64> others;
+    bool has_others = false;
 };
 template <std::size_t n>
 RDDL_INLINE TrueElements<n> true_elements(const std::array<bool, n>& row) {
-    return {words_of(row)};
+    TrueElements<n> elements{.others = words_of(row)};
+    bool is_found = false;
+    Index first_of_word = 0;
+    for (std::uint64_t& bits : elements.others) {
+        const bool is_here = !is_found && bits != 0;
+        if (is_here) elements.first = first_of_word + __builtin_ctzll(bits);
+        bits = is_here ? bits & (bits - 1) : bits;
+        elements.has_others |= bits != 0;
+        is_found |= is_here;
+        first_of_word += 64;
+    }
+    return elements;
 }
 template <std::size_t n, int width>
 RDDL_INLINE const std::array<Mask<width>, n>& true_elements(const std::array<Mask<width>, n>& row) {
@@ -112,7 +126,10 @@ RDDL_INLINE const std::array<Mask<width>, n>& true_elements(const std::array<Mas
 // environments.
 template <std::size_t n, class Mark>
 RDDL_INLINE void visit_true(const TrueElements<n>& elements, Mark&& mark) {
-    detail::for_each_one(elements.words, [&](Index x) RDDL_INLINE_LAMBDA { mark(x, true); });
+    if (elements.first == static_cast<Index>(n)) return;
+    mark(elements.first, true);
+    if (elements.has_others) [[unlikely]]
+        detail::for_each_one(elements.others, [&](Index x) RDDL_INLINE_LAMBDA { mark(x, true); });
 }
 template <std::size_t n, int width, class Mark>
 RDDL_INLINE void visit_true(const std::array<Mask<width>, n>& elements, Mark&& mark) {

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <vector>
 
 namespace rddl {
 namespace {
@@ -135,6 +136,23 @@ TEST(VisitTrue, MarksTheEntriesOfTheRowsOfTrueElements) {
             for (std::size_t x = 0; x < n; ++x)
                 EXPECT_EQ(of_masks[x][lane], expected[static_cast<std::size_t>(lane)][x]);
     }
+}
+
+// One true element is visited without a look for others.
+TEST(VisitTrue, TakesTrueElementsInOrder) {
+    const auto visited = [](const std::vector<std::size_t>& places) {
+        std::array<bool, 130> row{};
+        for (const std::size_t place : places) row[place] = true;
+        std::vector<std::size_t> visits;
+        visit_true(true_elements(row), [&](Index x, bool is_true) {
+            EXPECT_TRUE(is_true);
+            visits.push_back(static_cast<std::size_t>(x));
+        });
+        return visits;
+    };
+    for (const std::vector<std::size_t>& places :
+         {std::vector<std::size_t>{}, {0}, {63}, {64}, {129}, {3, 5}, {63, 64}, {70, 71, 129}})
+        EXPECT_EQ(visited(places), places);
 }
 
 TEST(VisitTrue, TakesTheMarkedElementsAway) {
