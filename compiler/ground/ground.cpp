@@ -6,6 +6,7 @@
 #include "ground/declare.hpp"
 #include "ground/lowering.hpp"
 #include "ground/memory.hpp"
+#include "ground/most_true.hpp"
 #include "ir/analysis.hpp"
 #include "ir/builder.hpp"
 #include "ir/layout.hpp"
@@ -85,6 +86,7 @@ std::optional<ir::Program> ground(const model::Model& model, Diagnostics& diagno
         // The policy comes at the end, so that neither sites nor nodes of the simulator change with
         // it.
         if (model.policy) program.policy = policy_of(*model.policy, lowering);
+        grounding::find_most_true(builder, program);
         if (diagnostics.error_count() == errors_before)
             grounding::warn_of_certain_faults(builder, diagnostics);
     }

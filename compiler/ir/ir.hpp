@@ -92,6 +92,9 @@ struct Buffer {
     // Within which every element lies, where that is known: of reals that the step computes
     // (is_computed_in_step), and of those of a program for moderate values.
     std::optional<Range> range = {};
+    // Action: of its bools no more are true in an action that is allowed, where that is known.
+    // Values do not depend on it.
+    std::optional<std::int64_t> most_true = {};
     // Constant ints that only Element reads: emitted code keeps each in as few bytes as it takes.
     bool holds_places = false;
 

@@ -80,14 +80,17 @@ inline ir::Program grounded(const Problem& problem) {
 }
 
 // The same with objects b1 to b20 of type "obj".
-inline ir::Program grounded_with_many(const Problem& problem) {
-    std::string text = problem.text();
+inline ir::Program grounded_with_many(std::string text) {
     const std::string few = "obj : {b1, b2, b3}";
     std::string many = "obj : {b1";
     for (int i = 2; i <= 20; ++i) many += ", b" + std::to_string(i);
     Grounded result = ground_text(text.replace(text.find(few), few.size(), many + "}"));
     if (!result.program) throw std::runtime_error(result.messages);
     return std::move(*result.program);
+}
+
+inline ir::Program grounded_with_many(const Problem& problem) {
+    return grounded_with_many(problem.text());
 }
 
 // The program for moderate values alone, if there is one.

@@ -3,6 +3,7 @@
 
 #include "ir/evaluation_budget.hpp"
 #include "ir/fold.hpp"
+#include "ir/new_tables.hpp"
 #include "ir/reduction_nest.hpp"
 #include "ir/rewrite.hpp"
 #include "passes/aggregations/entry_tables.hpp"
@@ -28,6 +29,10 @@ constexpr double cost_of_test = 2;
 constexpr double most_empty_rows = 1e6;
 // The entries of all aggregations: each takes a few numbers in the emitted text.
 constexpr std::int64_t most_entries_in_all = std::int64_t{1} << 20;
+
+// An int of this range chooses an element in the row of an entry, and the size of such tables.
+constexpr double most_cases = 256;
+constexpr std::int64_t most_elements_by_int = 4096;
 
 // The aggregation that is being rewritten: its objects are those of an entry now.
 struct Scope {
@@ -123,7 +128,7 @@ class Rewriting {
             return column(index->variable, scope);
         }
         const std::optional<ir::NodeId> table =
-            is_fixed(id, scope) ? tabulated(id, scope) : std::nullopt;
+            is_fixed(id, scope) ? tabulated(id, scope) : tabulated_by_int(id, scope);
         return table ? *table : rebuilt(id, scope);
     }
 
@@ -170,6 +175,70 @@ class Rewriting {
         };
         if (std::ranges::all_of(values, is_like_first)) return builder_.constant(values.front());
         return load("-entries", program_[id].type, std::move(values), scope);
+    }
+
+    // The values that an entry and one int of a small range decide: a row for each entry.
+    std::optional<ir::NodeId> tabulated_by_int(ir::NodeId id, const Scope& scope) {
+        std::optional<ir::NodeId> chooser;
+        if (!finds_only_int(id, scope, chooser) || !chooser) return std::nullopt;
+        const Range range = *builder_.properties(*chooser).range;
+        const auto cases = static_cast<std::size_t>(range.upper - range.lower) + 1;
+        std::vector<ir::Value> values(scope.relation.tuples.size() * cases);
+        if (static_cast<std::int64_t>(values.size()) >= most_by_int(id)) return std::nullopt;
+        const auto least = static_cast<std::int64_t>(range.lower);
+        for (std::size_t k = 0; k < cases; ++k) {
+            const auto value_of_int = builder_.constant(least + static_cast<std::int64_t>(k));
+            std::map<ir::NodeId, ir::NodeId> known = {{*chooser, value_of_int}};
+            const ir::NodeId of_case = ir::replace_in(builder_, id, known);
+            for (std::size_t entry = 0; entry < scope.relation.tuples.size(); ++entry) {
+                const auto value =
+                    pattern_.evaluate(of_case, scope.axes(), scope.relation.tuples[entry]);
+                if (!value) return std::nullopt;
+                values[entry * cases + k] = *value;
+            }
+        }
+        ir::Buffer table{.name = scope.name + "-entries",
+                         .storage = ir::Storage::Constant,
+                         .scalar = program_[id].type,
+                         .shape = {scope.relation.count(), static_cast<std::int64_t>(cases)},
+                         .values = std::move(values),
+                         .span = scope.span};
+        const ir::NodeId place = builder_.apply(
+            Operator::Subtract, {rewritten(*chooser, *scope.outer), builder_.constant(least)});
+        return builder_.load(builder_.tables().constant(std::move(table)), {scope.entry, place});
+    }
+
+    // Whether a node depends on the objects of an entry and on one int alone, which has a small
+    // range and does not depend on them.
+    bool finds_only_int(ir::NodeId id, const Scope& scope,
+                        std::optional<ir::NodeId>& chooser) const {
+        const ir::Node& node = program_[id];
+        const ir::Properties& properties = builder_.properties(id);
+        const auto is_known = [&](ir::VariableId variable) {
+            return scope.relation.has(variable);
+        };
+        if (properties.uniform) return std::ranges::all_of(properties.free_variables, is_known);
+        const auto& range = properties.range;
+        if (node.type == ir::Scalar::Int && !properties.may_fault && !properties.random && range &&
+            range->upper - range->lower < most_cases &&
+            std::ranges::none_of(properties.free_variables, is_known)) {
+            if (!chooser) chooser = id;
+            return *chooser == id;
+        }
+        const auto* load = std::get_if<ir::Load>(&node.form);
+        const bool is_constant = load ? program_[load->buffer].storage == ir::Storage::Constant
+                                      : std::holds_alternative<ir::Apply>(node.form) ||
+                                            std::holds_alternative<ir::Convert>(node.form);
+        return is_constant && std::ranges::all_of(ir::operands_of(node), [&](ir::NodeId operand) {
+                   return finds_only_int(operand, scope, chooser);
+               });
+    }
+
+    // A table of entries in place of another table is smaller.
+    std::int64_t most_by_int(ir::NodeId id) const {
+        const auto* load = std::get_if<ir::Load>(&program_[id].form);
+        return load ? std::min(most_elements_by_int, program_[load->buffer].count())
+                    : most_elements_by_int;
     }
 
     ir::NodeId load(const std::string& suffix, ir::Scalar scalar, std::vector<ir::Value> values,

@@ -8,9 +8,11 @@
 //
 // Constant tables and comparisons of objects decide which objects contribute
 // (sparsity_pattern.hpp). Values that are fixed for an entry, such as a weight, become a table of
-// entries; then remove_unused_buffers removes the unread dense tables. Nested aggregations become
-// one. Those of reals stay nested, since partial sums are rounded: an outer one runs over the
-// objects that have entries, an inner one over the entries of such an object.
+// entries, and those that an entry and one int of a small range decide become a row of each entry:
+// RATE[c, d, state.mode] is RATE-entries[entry, state.mode]. Then remove_unused_buffers removes the
+// unread dense tables. Nested aggregations become one. Those of reals stay nested, since partial
+// sums are rounded: an outer one runs over the objects that have entries, an inner one over the
+// entries of such an object.
 //
 //     sum[x in cell](sum[y in cell](RATE[x, y] * real(state.on[y])))
 //                                       =>

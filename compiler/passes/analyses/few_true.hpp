@@ -1,5 +1,5 @@
-// Tables of the state of which few bools are true when an episode begins. Another state has the
-// same values and takes longer.
+// Tables of which few bools are true, of the state when an episode begins and of the action. Other
+// states and actions have the same values and take longer.
 #pragma once
 
 #include "ir/ir.hpp"
@@ -10,5 +10,12 @@ namespace rddlc::passes {
 
 // Whether it is such a table: one bool at least is true, and one of `least_per_true` at most.
 bool begins_with_few_true(const ir::Buffer& buffer, std::int64_t least_per_true);
+
+// Whether it is such a table of the action: one bool of `least_per_true` at most is true.
+bool acts_with_few_true(const ir::Buffer& buffer, std::int64_t least_per_true);
+
+// An action chooses one of so many objects at most: one object alone takes about as long as that
+// many in registers.
+inline constexpr std::int64_t least_per_chosen = 8;
 
 }  // namespace rddlc::passes

@@ -168,11 +168,18 @@ std::vector<Axis> SparsityPattern::axes_of(ir::NodeId id) const {
 std::optional<Relation> SparsityPattern::of(const ir::Load& load, const ir::Value& value) {
     const ir::Buffer& table = program()[load.buffer];
     if (table.storage != ir::Storage::Constant) return std::nullopt;
-    std::vector<Axis> axes;  // of the table; a fixed index has the size 1 and no variable
-    for (ir::NodeId index : load.indices) {
-        const auto* variable = std::get_if<ir::Index>(&program()[index].form);
-        if (!variable) return std::nullopt;
-        axes.push_back({variable->variable, program()[variable->variable].size});
+    std::vector<Axis> axes;           // of the table
+    std::vector<ir::VariableId> any;  // stand for indices that may choose any element
+    for (std::size_t k = 0; k < load.indices.size(); ++k) {
+        const ir::NodeId index = load.indices[k];
+        if (const auto* variable = std::get_if<ir::Index>(&program()[index].form)) {
+            axes.push_back({variable->variable, program()[variable->variable].size});
+        } else if (properties(index).may_fault || properties(index).uniform) {
+            return std::nullopt;
+        } else {
+            any.push_back({static_cast<std::uint32_t>(program().variables.size() + k)});
+            axes.push_back({any.back(), table.shape[k]});
+        }
     }
     std::vector<Axis> sorted = axes;
     std::ranges::sort(sorted);
@@ -188,8 +195,10 @@ std::optional<Relation> SparsityPattern::of(const ir::Load& load, const ir::Valu
             if (table.values[i] != value) result.tuples.push_back(i);
         }
     }
+    result = ordered(result, std::move(sorted));
+    for (const ir::VariableId variable : any) result = project(result, variable);
     if (!is_sparse(result)) return std::nullopt;
-    return ordered(result, std::move(sorted));
+    return result;
 }
 
 // Where all tables have their common elements, the expression has one value: if it is the given
@@ -245,10 +254,25 @@ std::optional<Relation> SparsityPattern::of(const ir::Apply& apply, const ir::Va
     if (is_one_of(op, {Operator::Equal, Operator::NotEqual}))
         return value == ir::Value(op == Operator::Equal) ? std::nullopt : of_equality(a, b);
     if (is_one_of(op, {Operator::Minimum, Operator::Maximum})) return either(a, b, value);
-    if (!is_zero(value)) return std::nullopt;
+    if (!is_zero(value)) return of_zero_beside(apply, value);
     if (op == Operator::Multiply) return of_product(a, b, value);
     if (is_one_of(op, {Operator::Add, Operator::Subtract})) return either(a, b, value);
     return op == Operator::Negate ? of(a, value) : std::nullopt;
+}
+
+// `1.0 - x` differs from 1.0 only where x differs from a zero.
+std::optional<Relation> SparsityPattern::of_zero_beside(const ir::Apply& apply,
+                                                        const ir::Value& value) {
+    const ir::NodeId a = apply.operands.front(), b = apply.operands.back();
+    const auto is_value = [&](ir::NodeId id) {
+        const auto* constant = std::get_if<ir::Constant>(&program()[id].form);
+        return constant && as_real(constant->value) == as_real(value);
+    };
+    if (!is_one_of(apply.op, {Operator::Add, Operator::Subtract})) return std::nullopt;
+    const auto* const is_int = std::get_if<std::int64_t>(&value);
+    const ir::Value zero = is_int ? ir::Value(std::int64_t{0}) : ir::Value(0.0);
+    if (is_value(a)) return of(b, zero);
+    return apply.op == Operator::Add && is_value(b) ? of(a, zero) : std::nullopt;
 }
 
 // Compares a loop index with a value that does not depend on it, so there is one such index for

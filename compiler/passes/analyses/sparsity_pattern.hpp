@@ -3,6 +3,7 @@
 //
 //     LINK[x, y] && state.up[y]      differs from false only for (x, y) in LINK
 //     COST[x] * real(state.up[x])    differs from 0 only for x with a cost
+//     RATE[x, state.mode]            differs from 0 only for x with a rate in some mode
 //
 // The work goes with the entries of the tables that are exceptions, not with the number of objects.
 #pragma once
@@ -53,6 +54,7 @@ class SparsityPattern {
     Found of_doubtful_product(ir::NodeId a, ir::NodeId b, std::vector<ir::NodeId>& doubtful);
     Found of_common_elements(ir::NodeId id, const ir::Value& value);
     Found entries_of_tables(ir::NodeId id);
+    Found of_zero_beside(const ir::Apply& apply, const ir::Value& value);
     Found of_equality(ir::NodeId a, ir::NodeId b);
     Found of_product(ir::NodeId a, ir::NodeId b, const ir::Value& zero);
 

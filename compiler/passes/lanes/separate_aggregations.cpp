@@ -4,9 +4,12 @@
 #include "ir/nest.hpp"
 #include "ir/reduction_nest.hpp"
 #include "ir/rewrite.hpp"
+#include "passes/analyses/few_true.hpp"
 #include "passes/analyses/object_lanes.hpp"
 
 #include <algorithm>
+#include <cstdint>
+#include <iterator>
 #include <map>
 #include <string>
 #include <utility>
@@ -17,6 +20,10 @@ namespace {
 
 // Operations (Properties::cost) that are worth writing a value to a table and reading it again.
 constexpr double worth_separating = 10;
+// Operations of an aggregation in a branch: it takes no longer than a mispredicted jump.
+constexpr double most_in_branch = 48;
+// An action that chooses one of so many objects at most makes a branch rare.
+constexpr std::int64_t least_per_rare = 2;
 
 using Variables = std::vector<ir::VariableId>;
 
@@ -102,19 +109,45 @@ class Separation {
         }
         if (const auto* select = std::get_if<ir::Select>(&node.form))
             return find_aggregations(select->condition, variables, found) &&
-                   has_none(select->then_value) && has_none(select->else_value);
+                   find_in_branch(select->then_value, is_rare(select->condition), variables,
+                                  found) &&
+                   find_in_branch(select->else_value, false, variables, found);
         return std::ranges::all_of(ir::operands_of(node), [&](ir::NodeId operand) {
             return find_aggregations(operand, variables, found);
         });
+    }
+    // A condition that holds only where the action chooses the object.
+    bool is_rare(ir::NodeId condition) const {
+        const ir::Node& node = program_[condition];
+        const auto is_rare_too = [&](ir::NodeId operand) {
+            return is_rare(operand);
+        };
+        if (const auto* load = std::get_if<ir::Load>(&node.form))
+            return acts_with_few_true(program_[load->buffer], least_per_rare);
+        const auto* apply = std::get_if<ir::Apply>(&node.form);
+        if (!apply) return false;
+        if (apply->op == Operator::And) return std::ranges::any_of(apply->operands, is_rare_too);
+        return apply->op == Operator::Or && std::ranges::all_of(apply->operands, is_rare_too);
     }
     bool reads(ir::NodeId id, ir::BufferId buffer) const {
         return ir::buffer_read_by(program_[id]) == buffer ||
                std::ranges::any_of(ir::operands_of(program_[id]),
                                    [&](ir::NodeId operand) { return reads(operand, buffer); });
     }
-    bool has_none(ir::NodeId id) const {
-        std::vector<ir::NodeId> found;
-        return find_aggregations(id, {}, found) && found.empty();
+    // All objects compute those, also the objects that do not take the branch.
+    bool find_in_branch(ir::NodeId id, bool is_rare, const Variables& variables,
+                        std::vector<ir::NodeId>& found) const {
+        std::vector<ir::NodeId> inside;
+        const bool may_be_computed = builder_.properties(id).random && !is_rare;
+        const auto is_cheap = [&](ir::NodeId each) {
+            return may_be_computed && builder_.properties(each).cost <= most_in_branch;
+        };
+        if (!find_aggregations(id, variables, inside) || !std::ranges::all_of(inside, is_cheap))
+            return false;
+        std::ranges::copy_if(inside, std::back_inserter(found), [&](ir::NodeId each) {
+            return std::ranges::find(found, each) == found.end();
+        });
+        return true;
     }
 
     // A table of these variables can hold it: nothing else around it, such as the draw of an object

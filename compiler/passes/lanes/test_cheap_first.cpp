@@ -2,6 +2,7 @@
 
 #include "ir/analysis.hpp"
 #include "ir/rewrite.hpp"
+#include "passes/analyses/few_true.hpp"
 
 #include <algorithm>
 #include <optional>
@@ -53,12 +54,31 @@ bool has_loop(const ir::Builder& builder, ir::NodeId id,
     return has(has, id);
 }
 
+// A conjunction whose draws wait for the action; nothing if it has none.
+std::optional<ir::NodeId> drawn_where_chosen(ir::Builder& builder, std::vector<ir::NodeId> parts) {
+    const ir::Program& program = builder.program();
+    const auto is_chosen = [&](ir::NodeId part) {
+        const auto* load = std::get_if<ir::Load>(&program[part].form);
+        return load && acts_with_few_true(program[load->buffer], least_per_chosen);
+    };
+    const auto draws = std::stable_partition(parts.begin(), parts.end(), is_chosen);
+    const auto is_random = [&](ir::NodeId part) {
+        return builder.properties(part).random;
+    };
+    if (draws == parts.begin() || !std::any_of(draws, parts.end(), is_random)) return std::nullopt;
+    const ir::NodeId test = ir::joined(builder, Operator::And, std::span(parts.begin(), draws));
+    const ir::NodeId rest = ir::joined(builder, Operator::And, std::span(draws, parts.end()));
+    return builder.select(test, rest, builder.constant(false));
+}
+
 std::optional<ir::NodeId> tested_first(ir::Builder& builder, ir::NodeId id, Operator op) {
     std::vector<ir::NodeId> parts = ir::parts_of(builder.program(), id, op);
     const auto may_fault = [&](ir::NodeId part) {
         return builder.properties(part).may_fault;
     };
     if (std::ranges::any_of(parts, may_fault)) return std::nullopt;
+    if (op == Operator::And)
+        if (const auto drawn = drawn_where_chosen(builder, parts)) return drawn;
     const auto dear = std::stable_partition(parts.begin(), parts.end(), [&](ir::NodeId part) {
         return ir::is_cheap(builder.properties(part));
     });

@@ -3,6 +3,12 @@
 //
 //     action.assign[c] && exists[a in die](exists[b in die](...))
 //     =>  select(action.assign[c], exists[a in die](exists[b in die](...)), false)
+//
+// Draws wait for bools of an action of which few are true: packs of environments compute all
+// operands of `&&`.
+//
+//     action.mend[c] && sample bernoulli@0[c](0.9)
+//     =>  select(action.mend[c], sample bernoulli@0[c](0.9), false)
 #pragma once
 
 #include "ir/ir.hpp"

@@ -4,6 +4,7 @@
 #include "ir/nest.hpp"
 #include "ir/rewrite.hpp"
 #include "passes/analyses/bool_words.hpp"
+#include "passes/analyses/few_true.hpp"
 
 #include <algorithm>
 #include <cstdint>
@@ -15,10 +16,6 @@
 
 namespace rddlc::passes {
 namespace {
-
-// One object takes about as long as that many in registers. The runtime computes all objects if
-// more than one of so many is chosen.
-constexpr std::int64_t least_per_chosen = 8;
 
 class Choosing {
   public:
@@ -72,21 +69,11 @@ class Choosing {
     void collect_choices(ir::NodeId id, const ir::Nest& nest, std::set<ir::BufferId>& choices) {
         const auto* load = std::get_if<ir::Load>(&program_[id].form);
         if (load && ir::are_variables_of(program_, load->indices, nest) &&
-            is_few(program_[load->buffer]))
+            acts_with_few_true(program_[load->buffer], least_per_chosen))
             choices.insert(load->buffer);
         for (const ir::NodeId operand : ir::operands_of(program_[id]))
             collect_choices(operand, nest, choices);
     }
-    bool is_few(const ir::Buffer& buffer) const {
-        const auto is_false = [](const ir::Value& value) {
-            return value == ir::Value(false);
-        };
-        return buffer.storage == ir::Storage::Action && buffer.scalar == ir::Scalar::Bool &&
-               program_.max_nondef_actions &&
-               *program_.max_nondef_actions * least_per_chosen <= buffer.count() &&
-               buffer.values.all_of(is_false);
-    }
-
     // The table whose elements objects keep that are not chosen.
     std::optional<ir::BufferId> kept_without(ir::BufferId few, ir::NodeId value,
                                              const ir::Nest& nest) {

@@ -8,7 +8,7 @@
 //
 // One environment then computes the bools of the chosen objects alone, unless many are chosen;
 // packs of environments compute all. Nothing else changes. Whether few are chosen is taken from
-// max-nondef-actions.
+// max-nondef-actions and the preconditions (Buffer::most_true).
 #pragma once
 
 #include "ir/ir.hpp"

@@ -207,6 +207,39 @@ TEST(MakeAggregationsSparse, TakesTablesThatAreTooLargeToTryAll) {
               "real(sum[entry in 0 .. 2](int(state.p[FAR-n[entry]])))");
 }
 
+// Neighbours infect each other, depending on the season.
+Problem with_seasons(const std::string& cpf_of_x) {
+    Problem problem = with_links(cpf_of_x);
+    problem.pvariables +=
+        "RATE(obj, obj, color) : { non-fluent, real, default = 0.0 };\n"
+        "season : { state-fluent, color, default = @red };";
+    problem.cpfs += "season' = season;";
+    problem.non_fluents +=
+        "RATE(b1, b2, @red) = 0.25; RATE(b1, b2, @blue) = 0.5; RATE(b3, b2, @green) = 0.75;";
+    return problem;
+}
+
+TEST(MakeAggregationsSparse, LeavesOutFactorsOfOne) {
+    EXPECT_EQ(sparse("sum_{?o : obj} [v(?o) * (prod_{?u : obj} [1.0 - LINK(?o, ?u) * p(?u) * "
+                     "q(?u) * 0.5])]"),
+              "sum[o in obj](state.v[o] * prod[entry in LINK-rows[o] .. LINK-rows[o + 1]](1.0 - "
+              "real(int(state.p[LINK-u[entry]]) * int(state.q[LINK-u[entry]])) * 0.5))");
+}
+
+TEST(MakeAggregationsSparse, LeavesOutWhatNoIndexOfATableChooses) {
+    const Problem problem = with_seasons(
+        "sum_{?o : obj} [v(?o) * (prod_{?u : obj} [1.0 - p(?u) * q(?u) * (RATE(?o, ?u, season) + "
+        "RATE(?o, ?u, season) * RATE(?o, ?u, season))])]");
+    const ir::Program program = made_sparse(of_moderate_values(problem));
+    EXPECT_EQ(value_of_x(program),
+              "sum[o in obj](state.v[o] * prod[entry in RATE-rows[o] .. RATE-rows[o + 1]](1.0 - "
+              "real(int(state.p[RATE-u[entry]]) * int(state.q[RATE-u[entry]])) * "
+              "RATE-entries[entry, state.season]))");
+    EXPECT_EQ(table_text(program, "RATE-rows"), "RATE-rows[4]: int = {0 1 1 2}");
+    EXPECT_EQ(table_text(program, "RATE-entries"),
+              "RATE-entries[2, 3]: real = {0.3125 0.0 0.75 0.0 1.3125 0.0}");
+}
+
 TEST(MakeAggregationsSparse, LeavesDenseTables) {
     const std::string sum = "sum_{?o : obj, ?u : obj} [~LINK(?o, ?u) ^ p(?u)]";
     EXPECT_EQ(sparse(sum), value_of_x(of_moderate_values(with_links(sum))));

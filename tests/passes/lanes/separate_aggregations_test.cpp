@@ -55,6 +55,30 @@ TEST(SeparateAggregations, LeavesThoseInBranchesAndWhatIsCheap) {
     }
 }
 
+TEST(SeparateAggregations, TakesCheapOnesOutOfBranchesThatDraw) {
+    const std::string text =
+        step_of("if (Bernoulli(0.5)) then Normal(" + flow + ", 1) else depth(?x, ?y)");
+    EXPECT_NE(text.find("select(sample bernoulli@0[x * 3 + y](0.5), "
+                        "sample normal@1[x * 3 + y](scratch.depth-part[x, y], 1.0), "
+                        "state.depth[x, y])"),
+              std::string::npos)
+        << text;
+}
+
+TEST(SeparateAggregations, LeavesThoseOfRareBranches) {
+    const std::string cpf = "if (go(?x, ?y)) then Normal(" + flow + ", 1) else depth(?x, ?y)";
+    Problem problem = with_summed_pairs(cpf);
+    problem.pvariables += "go(obj, obj) : { action-fluent, bool, default = false };";
+    for (const bool is_rare : {false, true}) {
+        ir::Program program = grounded(problem);
+        for (ir::Buffer& buffer : program.buffers)
+            if (is_rare && buffer.storage == ir::Storage::Action) buffer.most_true = 1;
+        passes::Report report;
+        valid(passes::separate_aggregations(std::move(program), report));
+        EXPECT_EQ(report["loops whose aggregations are computed before"], is_rare ? 0 : 1);
+    }
+}
+
 // A value that the loop computes once is no reason for a table, nor is a loop that is over several
 // objects as it is.
 TEST(SeparateAggregations, LeavesLoopsThatWouldNotGain) {

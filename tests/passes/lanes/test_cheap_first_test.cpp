@@ -40,5 +40,27 @@ TEST(TestCheapFirst, KeepsWhatMayFault) {
     EXPECT_EQ(x.before, x.after);
 }
 
+// One of 20 machines is mended at most, or as many as there are.
+std::string mended(const std::string& cpf, std::int64_t most) {
+    ir::Program program =
+        grounded_with_many({.pvariables = "up(obj) : { state-fluent, bool, default = true };\n"
+                                          "mend(obj) : { action-fluent, bool, default = false };",
+                            .cpfs = "up'(?o) = " + cpf + ";"});
+    for (ir::Buffer& buffer : program.buffers)
+        if (buffer.storage == ir::Storage::Action) buffer.most_true = most;
+    passes::Report report;
+    const std::string text = step_text(valid(passes::test_cheap_first(std::move(program), report)));
+    const std::size_t begin = text.find("next.up[o] = ") + 13;
+    return text.substr(begin, text.find('\n', begin) - begin);
+}
+
+TEST(TestCheapFirst, DrawsWhereAnActionOfFewTrueBoolsChooses) {
+    const std::string cpf = "up(?o) | (Bernoulli(0.9) ^ mend(?o))";
+    EXPECT_EQ(mended(cpf, 1),
+              "state.up[o] || select(action.mend[o], sample bernoulli@0[o](0.9), false)");
+    EXPECT_EQ(mended(cpf, 20), "state.up[o] || sample bernoulli@0[o](0.9) && action.mend[o]");
+    EXPECT_EQ(mended("up(?o) ^ mend(?o)", 1), "state.up[o] && action.mend[o]");
+}
+
 }  // namespace
 }  // namespace rddlc

@@ -17,7 +17,8 @@ ir::Program in_loops(const std::string& cpf, std::int64_t most_taken = 2) {
                            "take(obj) : { action-fluent, bool, default = false };",
              .cpfs = "passed'(?o) = " + cpf + "; open'(?o) = open(?o); skill'(?o) = skill(?o);"}),
         report);
-    program.max_nondef_actions = most_taken;
+    for (ir::Buffer& buffer : program.buffers)
+        if (buffer.storage == ir::Storage::Action) buffer.most_true = most_taken;
     return program;
 }
 
