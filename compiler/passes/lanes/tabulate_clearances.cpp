@@ -3,6 +3,7 @@
 #include "ir/builder.hpp"
 #include "ir/nest.hpp"
 #include "ir/rewrite.hpp"
+#include "passes/analyses/object_condition.hpp"
 #include "passes/analyses/refutation.hpp"
 
 #include <algorithm>
@@ -51,10 +52,10 @@ struct Split {
     double unit;
 };
 
-std::optional<Split> split(const ConditionOfObjects& condition) {
+std::optional<Split> split(const ObjectCondition& condition) {
     Split result{};
     std::vector<std::pair<double, double>> ends;
-    for (std::size_t k = 0; k < condition.numbers().size(); ++k) {
+    for (std::size_t k = 0; k < condition.numbers.size(); ++k) {
         const auto constants = condition.constants_near(k);
         if (!constants) {
             result.moves.push_back(k);
@@ -78,12 +79,12 @@ std::optional<Split> split(const ConditionOfObjects& condition) {
 // The clearances of all cells, in units.
 class Clearing {
   public:
-    Clearing(const ConditionOfObjects& condition, const Split& split, std::int64_t objects)
+    Clearing(const ObjectCondition& condition, const Split& split, std::int64_t objects)
         : condition_(condition),
           split_(split),
           count_(objects),
           clear_at_(static_cast<std::size_t>(objects)),
-          bounds_(condition.numbers().size()) {}
+          bounds_(condition.numbers.size()) {}
 
     std::vector<std::int64_t> run() {
         std::vector<std::int64_t> units(static_cast<std::size_t>(count_of(split_.cells)));
@@ -138,7 +139,7 @@ class Clearing {
         for (const std::size_t move : split_.moves) bounds_[move] = between(-greatest, greatest);
         objects_.clear();
         for (std::int64_t object = 0; object < count_; ++object)
-            if (!condition_.is_false(object, bounds_)) objects_.push_back(object);
+            if (!is_false_within(condition_, object, bounds_)) objects_.push_back(object);
     }
 
     // Neighbours have similar clearances, and the same objects near them.
@@ -166,7 +167,7 @@ class Clearing {
         if (units <= known) return true;
         const double greatest = static_cast<double>(units) * split_.unit;
         for (const std::size_t move : split_.moves) bounds_[move] = between(-greatest, greatest);
-        const bool is_clear = condition_.is_false(object, bounds_) ||
+        const bool is_clear = is_false_within(condition_, object, bounds_) ||
                               std::ranges::any_of(split_.moves, [&](std::size_t move) {
                                   return is_clear_by_size_of(move, object, greatest);
                               });
@@ -179,14 +180,14 @@ class Clearing {
         const LineBounds before = bounds_[move];
         const Line size = {least_move_in_units * split_.unit, greatest};
         bounds_[move] = {size, size};
-        const bool to_the_right = condition_.is_refuted(object, bounds_);
+        const bool to_the_right = is_refuted_within(condition_, object, bounds_);
         bounds_[move] = negate({size, size});
-        const bool is_clear = to_the_right && condition_.is_refuted(object, bounds_);
+        const bool is_clear = to_the_right && is_refuted_within(condition_, object, bounds_);
         bounds_[move] = before;
         return is_clear;
     }
 
-    const ConditionOfObjects& condition_;
+    const ObjectCondition& condition_;
     const Split& split_;
     std::int64_t count_;                  // of objects
     std::vector<std::int64_t> objects_;   // near the block, those that matter most often first
@@ -218,8 +219,8 @@ class Tabulation {
         const auto& either = std::get<ir::Apply>(program_[found->value].form);
         if (either.op != Operator::Or) return;
         const auto condition =
-            ConditionOfObjects::of(program_, std::span(loop.body).first(loop.body.size() - 1),
-                                   either.operands.back(), loop.variable);
+            object_condition(program_, std::span(loop.body).first(loop.body.size() - 1),
+                             either.operands.back(), loop.variable);
         const auto parts = condition ? split(*condition) : std::nullopt;
         if (!parts) return;
         const auto units = Clearing(*condition, *parts, objects).run();
@@ -250,7 +251,7 @@ class Tabulation {
         return store && store->indices.empty() && names_before ? store : nullptr;
     }
 
-    ir::Clearances clearances(const ConditionOfObjects& condition, const Split& parts,
+    ir::Clearances clearances(const ObjectCondition& condition, const Split& parts,
                               const std::vector<std::int64_t>& units, Span span) {
         ir::Buffer table{.name = "clearances",
                          .storage = ir::Storage::Constant,
@@ -264,12 +265,11 @@ class Tabulation {
                               .unit = parts.unit,
                               .least_move = least_move_in_units * parts.unit};
         for (const Axis& axis : parts.axes) {
-            result.places.push_back(condition.numbers()[axis.number]);
+            result.places.push_back(condition.numbers[axis.number]);
             result.begin.push_back(axis.begin);
             result.cells_per_unit.push_back(1 / axis.width);
         }
-        for (const std::size_t move : parts.moves)
-            result.moves.push_back(condition.numbers()[move]);
+        for (const std::size_t move : parts.moves) result.moves.push_back(condition.numbers[move]);
         std::ranges::sort(result.moves);
         return result;
     }
