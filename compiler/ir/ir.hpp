@@ -304,6 +304,14 @@ struct Chosen {
     BufferId few;   // bools of the action, as many as the loop has objects
     BufferId kept;  // bools of the state, of the same shape
 };
+// An exists is false, without a look at its objects, where a table says so: for places in one of
+// its cells, and moves that are nearer to 0 than the cell's clearance.
+struct Clearances {
+    BufferId table;  // constant ints, holds_places: multiples of `unit`; a dimension for each place
+    std::vector<BufferId> places = {}, moves = {};        // of one real each
+    std::vector<double> begin = {}, cells_per_unit = {};  // of each dimension
+    double unit, least_move;  // a move that is nearer to 0 than this one has no clearance
+};
 struct Loop {
     VariableId variable;
     Block body;
@@ -318,6 +326,8 @@ struct Loop {
     // Its values are no words: one environment computes those that are chosen alone
     // (passes/lanes/visit_chosen.hpp).
     std::optional<Chosen> chosen = {};
+    // It quantifies (passes/lanes/tabulate_clearances.hpp).
+    std::optional<Clearances> clearances = {};
 };
 // An element that gets a value where a condition is true; else it stays as it is.
 struct Mark {

@@ -265,10 +265,26 @@ class Printer {
             loop.chosen ? fmt::format(", chosen by {}, others {}", element(loop.chosen->few, {}),
                                       element(loop.chosen->kept, {}))
                         : "";
-        writer_.line(fmt::format("for {}{}{}{}", binding(loop.variable), how, affected, chosen))
+        writer_
+            .line(fmt::format("for {}{}{}{}{}", binding(loop.variable), how, affected, chosen,
+                              loop.clearances ? near(*loop.clearances) : ""))
             .indent();
         block(loop.body);
         writer_.dedent();
+    }
+
+    // ", near clearances[state.x, state.y] of scratch.dx, scratch.dy"
+    std::string near(const Clearances& clearances) {
+        const auto list = [&](const std::vector<BufferId>& numbers) {
+            std::string text;
+            for (const BufferId number : numbers)
+                text += (text.empty() ? "" : ", ") + element(number, {});
+            return text;
+        };
+        std::string text =
+            fmt::format(", near {}[{}]", program_[clearances.table].name, list(clearances.places));
+        if (!clearances.moves.empty()) text += " of " + list(clearances.moves);
+        return text;
     }
 
     void print(const Visit& visit) {

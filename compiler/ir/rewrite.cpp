@@ -35,6 +35,11 @@ void change_tables(Block& block, const std::function<void(BufferId&)>& change) {
                     change(loop.chosen->few);
                     change(loop.chosen->kept);
                 }
+                if (loop.clearances) {
+                    change(loop.clearances->table);
+                    for (BufferId& place : loop.clearances->places) change(place);
+                    for (BufferId& move : loop.clearances->moves) change(move);
+                }
             },
             [&](Visit& visit) {
                 for (Mark& mark : visit.marks) change(mark.target);

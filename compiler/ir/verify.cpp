@@ -596,7 +596,22 @@ class Verifier {
                     "'{}' does not say which objects keep their elements of '{}'", few.name,
                     kept.name);
         }
+        if (form.clearances) near(*form.clearances);
         for (const Statement& each : form.body) statement(each, scope, readable);
+    }
+
+    void near(const Clearances& form) {
+        const Buffer& table = program_[form.table];
+        const auto is_number = [&](BufferId number) {
+            return program_[number].shape.empty() && program_[number].scalar == Scalar::Real;
+        };
+        require(table.storage == Storage::Constant && table.holds_places &&
+                    table.shape.size() == form.places.size() &&
+                    form.begin.size() == form.places.size() &&
+                    form.cells_per_unit.size() == form.places.size() &&
+                    std::ranges::all_of(form.places, is_number) &&
+                    std::ranges::all_of(form.moves, is_number),
+                "'{}' is no table of clearances", table.name);
     }
 
     void visit(const Visit& form, Scope scope, const StorageSet& readable) {

@@ -36,6 +36,7 @@
 #include "passes/lanes/separate_aggregations.hpp"
 #include "passes/lanes/separate_counts.hpp"
 #include "passes/lanes/separate_draws.hpp"
+#include "passes/lanes/tabulate_clearances.hpp"
 #include "passes/lanes/test_cheap_first.hpp"
 #include "passes/lanes/test_equalities_first.hpp"
 #include "passes/lanes/unroll_rows.hpp"
@@ -337,6 +338,12 @@ constexpr Pass in_order[] = {
      unused_summary,
      {"quantify_together"},
      "it leaves tables of bools unread"},
+    {"tabulate_clearances",
+     Phase::Lanes,
+     tabulate_clearances,
+     "an exists over objects with constant places looks at them only where one may be near",
+     {"quantify_together"},
+     "it finds in registers whether there is such an object"},
     {"visit_affected",
      Phase::Lanes,
      visit_affected,

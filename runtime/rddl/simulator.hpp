@@ -7,6 +7,7 @@
 #include <rddl/lanes/lane.hpp>
 #include <rddl/object_lanes/angles.hpp>
 #include <rddl/object_lanes/chosen_objects.hpp>
+#include <rddl/object_lanes/clearance.hpp>
 #include <rddl/object_lanes/many_objects.hpp>
 #include <rddl/object_lanes/objects.hpp>
 #include <rddl/object_lanes/rows.hpp>

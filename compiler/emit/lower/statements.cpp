@@ -1,6 +1,7 @@
 // Over 400 lines: a function for each kind of statement, and for each reason to name a part.
 #include "emit/lower/statements.hpp"
 
+#include "emit/cpp/literals.hpp"
 #include "emit/cpp/print.hpp"
 #include "emit/lower/operators.hpp"
 #include "support/match.hpp"
@@ -186,6 +187,8 @@ void FunctionBody::over_several_objects(const ir::Loop& loop, bool is_from_start
     for (const ir::VariableId variable : std::span(nest.variables).subspan(1))
         count += " * " + expressions_.unit().size_of(program()[variable]);
 
+    const tree::Expressions numbers =
+        loop.clearances ? numbers_near(*loop.clearances) : tree::Expressions{};
     // Whether the context has a name is known when the body is.
     expressions_.uses().context = false;
     const ir::Apply* const found = quantified(program(), nest);
@@ -198,6 +201,7 @@ void FunctionBody::over_several_objects(const ir::Loop& loop, bool is_from_start
     tree::Expressions parameters = {
         has_context ? tree::Expression{tree::Declared{"auto&", context}} : tree::word("auto&"),
         {tree::Declared{"auto", objects}}};
+    tree::append(parameters, numbers);
     tree::Expression lambda{tree::Lambda{std::move(parameters), std::move(body)}};
     expressions_.leave_nest();
     expressions_.return_to(before);
@@ -218,8 +222,10 @@ void FunctionBody::over_several_objects(const ir::Loop& loop, bool is_from_start
         const std::string function =
             found->op == Operator::Or ? "rddl::exists_object<" : "rddl::for_all_objects<";
         const ir::BufferId target = std::get<ir::Store>(nest.body->back().form).target;
-        tree::Expression result = tree::call(function + count + ">",
-                                             tree::list(tree::word("context"), std::move(lambda)));
+        tree::Expression result =
+            loop.clearances ? near_object(*loop.clearances, count, std::move(lambda))
+                            : tree::call(function + count + ">",
+                                         tree::list(tree::word("context"), std::move(lambda)));
         if (!is_from_start)
             result = tree::operation(plain_operator(found->op),
                                      {expressions_.record(target), std::move(result)});
@@ -230,6 +236,60 @@ void FunctionBody::over_several_objects(const ir::Loop& loop, bool is_from_start
         statements_.push_back({tree::call(function + count + ">",
                                           tree::list(tree::word("context"), std::move(lambda)))});
     }
+}
+
+// The parameters of a body that one environment of a pack may run: places and moves get names.
+tree::Expressions FunctionBody::numbers_near(const ir::Clearances& clearances) {
+    tree::Expressions parameters;
+    for (const auto* const buffers : {&clearances.places, &clearances.moves})
+        for (const ir::BufferId buffer : *buffers) {
+            const std::string name = expressions_.claim(program()[buffer].name);
+            const ir::Load load{buffer, {}};
+            for (std::uint32_t i = 0; i < program().nodes.size(); ++i)
+                if (const auto* each = std::get_if<ir::Load>(&program().nodes[i].form);
+                    each && *each == load)
+                    expressions_.name(ir::NodeId{i}, name);
+            parameters.push_back({tree::Declared{"auto", name}});
+        }
+    return parameters;
+}
+
+// const rddl::Grid<2> grid{{0.0, 0.0}, {32.0, 32.0}, 0.001, 1e-09};
+// const std::array places{state.x, state.y};
+// const std::array moves{scratch.dx, scratch.dy};
+// ... rddl::exists_near_object<wall_count, clearances_>(
+//         context, grid, places, moves, [&](auto& several, auto w, auto x, auto y, ...) { ... });
+tree::Expression FunctionBody::near_object(const ir::Clearances& clearances,
+                                           const std::string& count, tree::Expression lambda) {
+    const auto reals = [](const std::vector<double>& values) {
+        tree::Expressions items;
+        for (const double value : values) items.push_back(tree::word(literal(value)));
+        return tree::braces("", std::move(items));
+    };
+    const auto declare = [&](const std::string& type, const char* wish, tree::Expressions items) {
+        const std::string name = expressions_.claim(wish);
+        tree::Expression variable = tree::braces("const " + type + " " + name, std::move(items));
+        statements_.push_back({std::move(variable)});
+        return tree::word(name);
+    };
+    const auto array = [&](const char* wish, const std::vector<ir::BufferId>& numbers) {
+        tree::Expressions items;
+        for (const ir::BufferId number : numbers) items.push_back(expressions_.record(number));
+        if (!items.empty()) return declare("std::array", wish, std::move(items));
+        return declare("std::array<" + expressions_.type(ir::Scalar::Real) + ", 0>", wish, {});
+    };
+    const std::string dimensions = std::to_string(clearances.places.size());
+    tree::Expression grid =
+        declare("rddl::Grid<" + dimensions + ">", "grid",
+                tree::list(reals(clearances.begin), reals(clearances.cells_per_unit),
+                           tree::word(literal(clearances.unit)),
+                           tree::word(literal(clearances.least_move))));
+    tree::Expression places = array("places", clearances.places);
+    tree::Expression moves = array("moves", clearances.moves);
+    return tree::call("rddl::exists_near_object<" + count + ", " +
+                          expressions_.unit().names.buffers[clearances.table.index] + ">",
+                      tree::list(tree::word("context"), std::move(grid), std::move(places),
+                                 std::move(moves), std::move(lambda)));
 }
 
 // rddl::spread(next.at[c], rddl::union_of(moves_, rddl::bits(state.at[c]), action.move[c]));

@@ -35,6 +35,9 @@ class FunctionBody {
     void mark(const ir::Mark& mark, const std::string& is_there);
     // A loop that quantifies may start where no object has been seen: nothing is read then.
     void over_several_objects(const ir::Loop& loop, bool is_from_start = false);
+    tree::Expressions numbers_near(const ir::Clearances& clearances);
+    tree::Expression near_object(const ir::Clearances& clearances, const std::string& count,
+                                 tree::Expression lambda);
     void statement(const ir::Call& call);
 
     // The use of a value: the width of the text before it, if both stand in one line.
