@@ -50,7 +50,7 @@ struct alignas(32) Edge {
     OutcomeTable outcomes;
 };
 
-// What was known of an edge before its trials.
+// Values of an edge from before its trials.
 struct FirstValue {
     double estimate = 0;
     std::int32_t draws = 0;  // that it was found by

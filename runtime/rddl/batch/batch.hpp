@@ -131,7 +131,7 @@ class Batch {
     void get_state(std::int64_t i, std::byte* record) const {
         write_record(L{}, state_columns_, state(i / width), lane_of(i), record);
     }
-    // Those of environments [begin, begin + count).
+    // The states of environments [begin, begin + count).
     void get_states(std::int64_t begin, std::int64_t count, std::byte* records) const {
         const std::int64_t size = state_columns_.row_size;
         for_each_part(

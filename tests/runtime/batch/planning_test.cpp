@@ -126,8 +126,8 @@ TEST(CopyEnvironments, OfOneAreAsSingleCopies) {
     }
 }
 
-// What is done with many environments at once, whole blocks of them together, is as if it was done
-// with each by itself.
+// Functions that take many environments at once, whole blocks of them together, do the same with
+// each of them as by itself.
 TEST(ManyEnvironments, AreAsSingleOnes) {
     constexpr std::int64_t size = 200, begin = 5, count = 190;
     TinyBatch many(batch_options(size)), single(batch_options(size));
