@@ -40,8 +40,8 @@ inline double range_of_returns(double least, double most) {
     return std::max(most - least, least_part * std::max(std::abs(least), std::abs(most)));
 }
 
-// sqrt(log(1 + n)), as UCB1 has it for a node of n trials, to three digits: of 1 + n eight bits
-// count.
+// sqrt(log(1 + n)), as UCB1 has it for a node of n trials, to three digits: the first 8 bits of
+// 1 + n count.
 inline double root_of_logarithm(std::int32_t trials) {
     constexpr int bits_of_float = 23, bits = 7;  // after the first one
     constexpr std::uint32_t first = std::bit_cast<std::uint32_t>(1.0f) >> (bits_of_float - bits);
