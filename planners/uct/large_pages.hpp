@@ -4,6 +4,7 @@
 
 #include <sys/mman.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdlib>
 #include <new>
@@ -22,7 +23,8 @@ template <class T>
 struct LargePages {
     using value_type = T;
     static constexpr std::size_t page = std::size_t{2} << 20;
-    static constexpr std::align_val_t alignment{alignof(T)};
+    static constexpr std::align_val_t alignment{
+        std::max(alignof(T), std::size_t{__STDCPP_DEFAULT_NEW_ALIGNMENT__})};
 
     LargePages() = default;
     template <class Other>
