@@ -4,6 +4,7 @@
 
 #include <sys/mman.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdlib>
 #include <new>
@@ -22,6 +23,8 @@ template <class T>
 struct LargePages {
     using value_type = T;
     static constexpr std::size_t page = std::size_t{2} << 20;
+    static constexpr std::align_val_t alignment{
+        std::max(alignof(T), std::size_t{__STDCPP_DEFAULT_NEW_ALIGNMENT__})};
 
     LargePages() = default;
     template <class Other>
@@ -29,7 +32,7 @@ struct LargePages {
 
     T* allocate(std::size_t count) {
         const std::size_t bytes = count * sizeof(T);
-        if (bytes < page) return static_cast<T*>(::operator new(bytes));
+        if (bytes < page) return static_cast<T*>(::operator new(bytes, alignment));
         const std::size_t whole = (bytes + page - 1) / page * page;
         void* const memory = std::aligned_alloc(page, whole);
         if (!memory) throw std::bad_alloc();
@@ -38,7 +41,7 @@ struct LargePages {
     }
     void deallocate(T* memory, std::size_t count) {
         if (count * sizeof(T) < page)
-            ::operator delete(memory);
+            ::operator delete(memory, alignment);
         else
             std::free(memory);
     }

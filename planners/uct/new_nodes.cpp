@@ -82,21 +82,21 @@ bool Uct::find_priors(const DecisionPoint& point, RandomStream& stream, BudgetMe
 
 // By logarithms of all actions, of which the node has some.
 void Uct::set_priors(Node& node, const float* logarithms) {
+    const auto edges = tree().edges(node);
+    const auto firsts = tree().first_values(node);
     float most = -std::numeric_limits<float>::infinity(), sum = 0;
-    Edge* likeliest = nullptr;  // one alone, also where several are as likely
-    for (Edge& edge : tree().edges(node))
-        if (!likeliest || logarithms[edge.action] > most) {
-            likeliest = &edge;
-            most = logarithms[edge.action];
+    std::size_t likeliest = 0;  // one alone, also where several are as likely
+    for (std::size_t e = 0; e < edges.size(); ++e)
+        if (e == 0 || logarithms[edges[e].action] > most) {
+            likeliest = e;
+            most = logarithms[edges[e].action];
         }
-    for (Edge& edge : tree().edges(node)) {
-        edge.prior = std::exp(logarithms[edge.action] - most);
-        sum += edge.prior;
-    }
-    for (Edge& edge : tree().edges(node))
-        edge.prior =
-            (1 - likeliest_share) * edge.prior / sum + (&edge == likeliest ? likeliest_share : 0);
-    node.has_priors = likeliest != nullptr;
+    for (std::size_t e = 0; e < edges.size(); ++e)
+        sum += firsts[e].prior = std::exp(logarithms[edges[e].action] - most);
+    for (std::size_t e = 0; e < edges.size(); ++e)
+        firsts[e].prior =
+            (1 - likeliest_share) * firsts[e].prior / sum + (e == likeliest ? likeliest_share : 0);
+    node.has_priors = !edges.empty();
 }
 
 // The policy's action has half of the prior, and all share the rest.
@@ -113,11 +113,12 @@ bool Uct::find_preferred(const DecisionPoint& point, RandomStream& stream, Budge
         for (std::size_t k = 0; k < count; ++k) {
             Node& node = tree().node(new_nodes_[first + k]);
             const std::byte* const record = continuations_.first_action(k);
-            for (Edge& edge : tree().edges(node)) {
+            for (const Edge& edge : tree().edges(node)) {
                 const bool is_its =
                     std::equal(record, record + action_size_, actions_.record(edge.action));
-                edge.prior = (1 - likeliest_share) / static_cast<float>(node.edge_count) +
-                             (is_its ? likeliest_share : 0);
+                tree().first_values(node)[tree().id_of(edge) - node.first_edge].prior =
+                    (1 - likeliest_share) / static_cast<float>(node.edge_count) +
+                    (is_its ? likeliest_share : 0);
                 node.has_priors |= is_its;
             }
         }

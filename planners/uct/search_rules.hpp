@@ -4,7 +4,10 @@
 #include "planners/uct/uct_options.hpp"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 
 namespace rddlc::planners {
@@ -35,6 +38,22 @@ inline double range_of_returns(double least, double most) {
     constexpr double least_part = 0.02;
     if (!(most >= least)) return 0;
     return std::max(most - least, least_part * std::max(std::abs(least), std::abs(most)));
+}
+
+// sqrt(log(1 + n)), as UCB1 has it for a node of n trials, to three digits: the first 8 bits of
+// 1 + n count.
+inline double root_of_logarithm(std::int32_t trials) {
+    constexpr int bits_of_float = 23, bits = 7;  // after the first one
+    constexpr std::uint32_t first = std::bit_cast<std::uint32_t>(1.0f) >> (bits_of_float - bits);
+    static const auto known = [] {
+        std::array<float, (std::size_t{32} << bits)> roots;
+        for (std::uint32_t k = 0; k < roots.size(); ++k)
+            roots[k] =
+                std::sqrt(std::log(std::bit_cast<float>((first + k) << (bits_of_float - bits))));
+        return roots;
+    }();
+    const auto number = std::bit_cast<std::uint32_t>(static_cast<float>(trials) + 1.0f);
+    return static_cast<double>(known[(number >> (bits_of_float - bits)) - first]);
 }
 
 // Whether an action that was taken so often has as many outcomes as may be told apart.

@@ -1,7 +1,6 @@
 #include "planners/uct/tree.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 
 namespace rddlc::planners {
@@ -11,10 +10,10 @@ void Tree::clear() {
     nodes_.front().is_open = nodes_.front().is_locked = true;
     edges_.clear();
     arms_.clear();
+    first_values_.clear();
     outcomes_.clear();
     states_.assign(state_size_, std::byte{0});
     ids_.clear();
-    places_.clear();
 }
 
 NodeId Tree::node_of(std::uint64_t key, const std::byte* state, std::int64_t step) {
@@ -37,6 +36,7 @@ EdgeId Tree::add_edge(NodeId id, std::uint32_t action) {
     edge.action = action;
     edges_.push_back(edge);
     arms_.emplace_back();
+    first_values_.emplace_back();
     return static_cast<EdgeId>(edges_.size() - 1);
 }
 
@@ -45,10 +45,9 @@ void Tree::reopen_edges(NodeId id) {
     const std::size_t first = node.first_edge, count = node.edge_count;
     node.first_edge = static_cast<EdgeId>(edges_.size());
     for (std::size_t e = first; e < first + count; ++e) {
-        const auto now = static_cast<EdgeId>(edges_.size());
         edges_.push_back(Edge(edges_[e]));
         arms_.push_back(Arm(arms_[e]));
-        if (edges_[now].outcome_count > few_outcomes) list_outcomes(now, edges_[now]);
+        first_values_.push_back(FirstValue(first_values_[e]));
     }
 }
 
@@ -62,11 +61,13 @@ void Tree::add_weight(Node& node, EdgeId id, std::int32_t more) {
 }
 
 void Tree::add_estimate(NodeId node, EdgeId id, double value) {
-    Edge& edge = edges_[id];
-    edge.estimates += 1;
-    edge.estimate += (value - edge.estimate) / edge.estimates;
-    arms_[id].value = edge.estimate;
-    if (edge.estimates == 1) add_weight(nodes_[node], id, 1);
+    FirstValue& first = first_values_[id];
+    first.draws += 1;
+    first.estimate += (value - first.estimate) / first.draws;
+    edges_[id].rewards = arms_[id].value = first.estimate;
+    if (first.draws > 1) return;
+    edges_[id].known_weight = 1;
+    add_weight(nodes_[node], id, 1);
 }
 
 void Tree::start(NodeId id, EdgeId edge) {
@@ -75,73 +76,37 @@ void Tree::start(NodeId id, EdgeId edge) {
     add_weight(node, edge, 1);
 }
 
-void Tree::cancel(NodeId node, EdgeId edge, std::uint32_t outcome) {
-    add_weight(nodes_[node], edge, -1);
-    if (arms_[edge].weight == 0) arms_[edge] = {};
-    --outcomes_[edges_[edge].first_outcome + outcome].started;
+// It lies elsewhere where the edge has had more outcomes since.
+Outcome& Tree::outcome_of(const Transition& made) {
+    OutcomeTable& table = edges_[made.edge].outcomes;
+    return outcomes_[table.has(made.outcome) ? made.outcome : outcomes_.add(table, made.after)];
 }
 
-std::uint32_t Tree::add_outcome(EdgeId id, NodeId after) {
-    Edge& edge = edges_[id];
-    Node& node = nodes_[after];
-    if (node.edge_before == no_edge) {
-        node.outcome = append_outcome(id, edge, {after, 0, 0, 0});
-    } else if (node.edge_before != id) {
-        node.outcome = place_of(id, after);
-    }
-    node.edge_before = id;
-    ++outcomes_[edge.first_outcome + node.outcome].started;
-    return node.outcome;
+void Tree::cancel(const Transition& made) {
+    add_weight(nodes_[made.node], made.edge, -1);
+    if (arms_[made.edge].weight == 0) arms_[made.edge] = {};
 }
 
-std::uint32_t Tree::place_of(EdgeId id, NodeId after) {
-    Edge& edge = edges_[id];
-    const auto seen = outcomes(edge);
-    if (seen.size() <= few_outcomes) {
-        const auto found = std::ranges::find(seen, after, &Outcome::node);
-        if (found != seen.end()) return static_cast<std::uint32_t>(found - seen.begin());
-    } else if (const std::uint32_t* const known = places_.find(outcome_key(id, after))) {
-        return *known - 1;
-    }
-    return append_outcome(id, edge, {after, 0, 0, 0});
-}
-
-void Tree::list_outcomes(EdgeId id, const Edge& edge) {
-    for (std::uint32_t place = 0; place < edge.outcome_count; ++place)
-        list_outcome(id, outcomes(edge)[place].node, place);
-}
-
-// Its place. A full block moves to the end, with as much room again.
-std::uint32_t Tree::append_outcome(EdgeId id, Edge& edge, const Outcome& outcome) {
-    const std::size_t count = edge.outcome_count;
-    if (count == few_outcomes) list_outcomes(id, edge);
-    if (count >= few_outcomes) list_outcome(id, outcome.node, static_cast<std::uint32_t>(count));
-    if (count == 0 || std::has_single_bit(count)) {
-        const std::size_t first = outcomes_.size();
-        outcomes_.resize(first + std::max<std::size_t>(1, 2 * count));
-        std::copy_n(outcomes_.data() + edge.first_outcome, count, outcomes_.data() + first);
-        edge.first_outcome = static_cast<std::uint32_t>(first);
-    }
-    outcomes_[edge.first_outcome + count] = outcome;
-    return edge.outcome_count++;
-}
-
+// By how often trials came there; before any is backed up, the first one.
 NodeId Tree::seen_outcome(EdgeId id, double share) const {
-    const auto seen = outcomes(edges_[id]);
+    const auto seen = outcomes_.places(edges_[id].outcomes);
+    const auto is_node = [](const Outcome& outcome) {
+        return outcome.node != no_node && outcome.node != over;
+    };
     std::int64_t all = 0;
-    for (const Outcome& outcome : seen) all += outcome.node == over ? 0 : outcome.started;
+    for (const Outcome& outcome : seen) all += is_node(outcome) ? outcome.done : 0;
     auto left = static_cast<std::int64_t>(share * static_cast<double>(all));
     for (const Outcome& outcome : seen) {
-        if (outcome.node == over) continue;
-        left -= outcome.started;
-        if (left < 0) return outcome.node;
+        if (!is_node(outcome)) continue;
+        left -= outcome.done;
+        if (left < 0 || all == 0) return outcome.node;
     }
     return over;
 }
 
 std::size_t Tree::bytes() const {
-    return nodes_.size() * (sizeof(Node) + state_size_) + ids_.bytes() + places_.bytes() +
-           edges_.size() * (sizeof(Edge) + sizeof(Arm)) + outcomes_.size() * sizeof(Outcome);
+    return nodes_.size() * (sizeof(Node) + state_size_) + ids_.bytes() + outcomes_.bytes() +
+           edges_.size() * (sizeof(Edge) + sizeof(Arm) + sizeof(FirstValue));
 }
 
 // A tree that grows to the size of another one moves nothing on the way.
@@ -149,7 +114,8 @@ void Tree::reserve_as(const Tree& other) {
     nodes_.reserve(other.nodes_.size());
     edges_.reserve(other.edges_.size());
     arms_.reserve(other.arms_.size());
-    outcomes_.reserve(other.outcomes_.size());
+    first_values_.reserve(other.first_values_.size());
+    outcomes_.reserve_as(other.outcomes_);
     states_.reserve(other.states_.size());
 }
 
@@ -166,28 +132,24 @@ void Tree::keep_below(EdgeId edge) {
         kept_id[id] = kept.node_of(state(id), nodes_[id].step);
         return kept_id[id];
     };
-    for (const Outcome& outcome : outcomes(edges_[edge]))
-        if (nodes_[outcome.node].is_open) keep(outcome.node);
+    for (const Outcome& outcome : outcomes_.places(edges_[edge].outcomes))
+        if (outcome.node != no_node && nodes_[outcome.node].is_open) keep(outcome.node);
     for (NodeId id = 1; id < found.size(); ++id) {
         const Node& node = nodes_[found[id]];
-        Node& copy = kept.nodes_[id];
-        const auto [edge_before, outcome_before] = std::pair(copy.edge_before, copy.outcome);
-        copy = node;
-        copy.first_edge = static_cast<EdgeId>(kept.edges_.size());
-        copy.edge_before = edge_before;  // of the nodes that lead here, which come first
-        copy.outcome = outcome_before;
+        kept.nodes_[id] = node;
+        kept.nodes_[id].first_edge = static_cast<EdgeId>(kept.edges_.size());
         for (const Edge& old : edges(node)) {
             Edge now = old;
-            now.outcome_count = 0;
-            for (Outcome outcome : outcomes(old)) {
-                if (outcome.done == 0) continue;  // trials that were cut off have met it
-                outcome.node = keep(outcome.node);
-                Node& after = kept.nodes_[outcome.node];
-                after.edge_before = static_cast<EdgeId>(kept.edges_.size());
-                after.outcome = kept.append_outcome(after.edge_before, now, outcome);
+            now.outcomes = {};
+            for (const Outcome& outcome : outcomes_.places(old.outcomes)) {
+                if (outcome.done == 0) continue;  // empty, or of trials that were cut off
+                const NodeId after = keep(outcome.node);
+                kept.outcomes_[kept.outcomes_.add(now.outcomes, after)] = {outcome.value, after,
+                                                                           outcome.done};
             }
             kept.edges_.push_back(now);
             kept.arms_.push_back(arms_[id_of(old)]);
+            kept.first_values_.push_back(first_values_[id_of(old)]);
         }
     }
     *this = std::move(kept);
@@ -196,34 +158,32 @@ void Tree::keep_below(EdgeId edge) {
 // The outcome's node may have another value now, and has been met once more. Other outcomes have
 // those of the last trials that met them by this edge: a sum over all of them costs more than it
 // tells.
-void Tree::add_value_after(Edge& edge, Outcome& outcome) {
+void Tree::add_rest(Edge& edge, Outcome& outcome, double rest) {
+    if (backup_ == Backup::Mean) {
+        outcome.done += 1;
+        edge.rests += rest;
+        return;
+    }
     const double before = outcome.done * outcome.value;
     outcome.done += 1;
     outcome.value = nodes_[outcome.node].value;
     edge.rests += outcome.done * outcome.value - before;
     if (std::isfinite(edge.rests)) return;
     edge.rests = 0;  // infinite values have no difference
-    for (const Outcome& one : outcomes(edge))
+    for (const Outcome& one : outcomes_.places(edge.outcomes))
         if (one.done > 0) edge.rests += one.done * one.value;
 }
 
-void Tree::back_up(NodeId id, EdgeId edge_id, std::uint32_t place, double reward, double rest) {
-    Edge& edge = edges_[edge_id];
-    Arm& arm = arms_[edge_id];
-    Outcome& outcome = outcomes_[edge.first_outcome + place];
-    edge.done += 1;
+void Tree::back_up(const Transition& made, double reward, double rest) {
+    Edge& edge = edges_[made.edge];
+    Arm& arm = arms_[made.edge];
+    edge.known_weight += 1;
     edge.rewards += reward;
-    if (backup_ == Backup::Max) {
-        add_value_after(edge, outcome);
-    } else {
-        outcome.done += 1;
-        edge.rests += rest;
-    }
-    const double before = arm.value, mass = edge.known_weight();
-    const double sum = edge.rewards + discount_ * edge.rests;
-    arm.value = (edge.estimates > 0 ? edge.estimate + sum : sum) / mass;
-    Node& node = nodes_[id];
-    const auto best = static_cast<std::int32_t>(edge_id - node.first_edge);
+    if (made.after != over) add_rest(edge, outcome_of(made), rest);
+    const double before = arm.value;
+    arm.value = (edge.rewards + discount_ * edge.rests) / edge.known_weight;
+    Node& node = nodes_[made.node];
+    const auto best = static_cast<std::int32_t>(made.edge - node.first_edge);
     const bool is_best = best == node.best;
     if (node.best < 0 || (is_best && arm.value < before)) {
         value_node(node);
@@ -244,7 +204,7 @@ void Tree::value_node(Node& node) {
     }
     double sum = 0, mass = 0;
     for (const Edge& edge : edges(node)) {
-        const double part = edge.known_weight();
+        const double part = edge.known_weight;
         if (part == 0) continue;
         sum += part * arms_[id_of(edge)].value;
         mass += part;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "planners/uct/large_pages.hpp"
+#include "planners/uct/outcome_tables.hpp"
 #include "planners/uct/state_hash.hpp"
 #include "planners/uct/uct_options.hpp"
 
@@ -15,11 +16,10 @@
 
 namespace rddlc::planners {
 
-using NodeId = std::uint32_t;
 using EdgeId = std::uint32_t;
-inline constexpr EdgeId no_edge = std::numeric_limits<EdgeId>::max();
 
-struct Node {
+// A node has a cache line.
+struct alignas(64) Node {
     double value = 0;
     EdgeId first_edge = 0;
     std::uint32_t edge_count = 0;
@@ -30,10 +30,6 @@ struct Node {
     std::int32_t untried = 0;  // edges of weight 0
     // The weight from which on twins of its actions are looked at (again).
     std::int32_t twins_at = std::numeric_limits<std::int32_t>::max();
-    // The edge that led here last, if one did, and the place of this node among its outcomes. There
-    // is another one only where a state is reached in several ways.
-    EdgeId edge_before = no_edge;
-    std::uint32_t outcome = 0;
     // The state in the determinised problem, and what its value was found by: for a node that has
     // this value, but no edges yet.
     std::uint32_t state = 0, epoch = 0;
@@ -46,18 +42,19 @@ struct Node {
 };
 
 // An action in a state.
-struct Edge {
-    std::uint32_t action = 0;
-    std::int32_t done = 0;       // trials that were backed up
-    std::int32_t estimates = 0;  // draws that its first value was found by
-    double estimate = 0;
-    double rewards = 0;  // the sum over trials
+struct alignas(32) Edge {
+    double rewards = 0;  // the sum over trials, with the first value as that of one
     double rests = 0;    // the sum over trials of the values of what came after the action
-    float prior = 0;     // of a policy: 0 .. 1
-    std::uint32_t first_outcome = 0, outcome_count = 0;
+    std::int32_t known_weight = 0;  // trials that were backed up; a first value counts as one
+    std::uint32_t action = 0;
+    OutcomeTable outcomes;
+};
 
-    // A first value counts as one trial.
-    std::int32_t known_weight() const { return done + (estimates > 0); }
+// Values of an edge from before its trials.
+struct FirstValue {
+    double estimate = 0;
+    std::int32_t draws = 0;  // that it was found by
+    float prior = 0;         // of a policy: 0 .. 1
 };
 
 // An arm of a bandit: all that a choice among the actions of a node reads of one of them.
@@ -67,10 +64,13 @@ struct Arm {
     float width = 0;                                          // 1 / sqrt(weight)
 };
 
-struct Outcome {
-    NodeId node = 0;
-    std::int32_t started = 0, done = 0;  // trials: that came here, that were backed up
-    double value = 0;                    // the node's, when it was last backed up to the edge
+// A step of a trial: an action in a node, and its outcome by the node and by its place among the
+// outcomes of all edges.
+struct Transition {
+    NodeId node;
+    EdgeId edge;
+    NodeId after;
+    std::uint32_t outcome;
 };
 
 class Tree {
@@ -112,21 +112,29 @@ class Tree {
     std::span<const Arm> arms(const Node& node) const {
         return {arms_.data() + node.first_edge, node.edge_count};
     }
+    std::span<FirstValue> first_values(const Node& node) {
+        return {first_values_.data() + node.first_edge, node.edge_count};
+    }
+    std::span<const FirstValue> first_values(const Node& node) const {
+        return {first_values_.data() + node.first_edge, node.edge_count};
+    }
     Edge& edge(EdgeId id) { return edges_[id]; }
     const Edge& edge(EdgeId id) const { return edges_[id]; }
     const Arm& arm(EdgeId id) const { return arms_[id]; }
-    // Each asks for memory that is read soon: by find(), by what is done with a node or an edge,
-    // and by a choice among the node's edges.
+    const FirstValue& first_value(EdgeId id) const { return first_values_[id]; }
+    // Each asks for memory that is read soon: by find(), by what is done with a node, an edge or an
+    // outcome, and by a choice among the node's edges.
     void prefetch(std::uint64_t key) const { ids_.prefetch(key); }
+    void prefetch_outcome(EdgeId id, NodeId node) const {
+        outcomes_.prefetch(edges_[id].outcomes, node);
+    }
     void prefetch_node(NodeId id) const { __builtin_prefetch(nodes_.data() + id); }
     void prefetch_edge(EdgeId id) const { __builtin_prefetch(edges_.data() + id); }
-    void prefetch_outcome(EdgeId id, NodeId node) const {
-        if (edges_[id].outcome_count > few_outcomes) places_.prefetch(outcome_key(id, node));
-    }
     void prefetch_arms(const Node& node) const {
         const auto* const first = reinterpret_cast<const char*>(arms_.data() + node.first_edge);
         const std::size_t size = std::min<std::size_t>(node.edge_count * sizeof(Arm), 2048);
         for (std::size_t b = 0; b < size; b += 64) __builtin_prefetch(first + b);
+        __builtin_prefetch(first + size - 1);
     }
     EdgeId id_of(const Edge& edge) const { return static_cast<EdgeId>(&edge - edges_.data()); }
     const std::byte* state(NodeId id) const { return states_.data() + id * state_size_; }
@@ -139,43 +147,25 @@ class Tree {
     void add_estimate(NodeId node, EdgeId edge, double value);
     // A trial takes that edge.
     void start(NodeId node, EdgeId edge);
-    // It was cut off after that, at this outcome.
-    void cancel(NodeId node, EdgeId edge, std::uint32_t outcome);
-    // It went on to that node. The place of the node among the edge's outcomes.
-    std::uint32_t add_outcome(EdgeId edge, NodeId node);
+    // It was cut off after that.
+    void cancel(const Transition& made);
+    // The trial went on to that node. The place of the outcome. Ends of episodes need none.
+    std::uint32_t add_outcome(EdgeId edge, NodeId node) {
+        return outcomes_.add(edges_[edge].outcomes, node);
+    }
     // A node that was seen before, chosen by `share` of [0, 1).
     NodeId seen_outcome(EdgeId edge, double share) const;
-    // A trial has ended: the reward of this edge, the outcome by its place, and the value of what
-    // came after it.
-    void back_up(NodeId node, EdgeId edge, std::uint32_t outcome, double reward, double rest);
+    // A trial has ended: the reward of this edge, and the value of what came after it.
+    void back_up(const Transition& made, double reward, double rest);
     // By its edges as they are now.
     void value_node(Node& node);
     double discount() const { return discount_; }
 
   private:
-    std::span<Outcome> outcomes(const Edge& edge) {
-        return {outcomes_.data() + edge.first_outcome, edge.outcome_count};
-    }
-    std::span<const Outcome> outcomes(const Edge& edge) const {
-        return {outcomes_.data() + edge.first_outcome, edge.outcome_count};
-    }
-    // Outcomes of an edge that has no more of them are searched from the first to the last; those
-    // of others are in a table.
-    static constexpr std::uint32_t few_outcomes = 8;
-    static std::uint64_t outcome_key(EdgeId edge, NodeId node) {
-        return scrambled(static_cast<std::uint64_t>(edge) << 32 | node);
-    }
-    // The place of the node among the edge's outcomes, where it is appended if it is new.
-    std::uint32_t place_of(EdgeId id, NodeId node);
-    // `edge` is the one of that number, or becomes it.
-    std::uint32_t append_outcome(EdgeId id, Edge& edge, const Outcome& outcome);
-    void list_outcome(EdgeId id, NodeId node, std::uint32_t place) {
-        places_.add(outcome_key(id, node), place + 1);
-    }
-    void list_outcomes(EdgeId id, const Edge& edge);
+    Outcome& outcome_of(const Transition& made);
     void reserve_as(const Tree& other);
     void add_weight(Node& node, EdgeId edge, std::int32_t more);
-    void add_value_after(Edge& edge, Outcome& outcome);
+    void add_rest(Edge& edge, Outcome& outcome, double rest);
 
     std::size_t state_size_;
     double discount_;
@@ -183,11 +173,10 @@ class Tree {
     LargeVector<Node> nodes_;
     LargeVector<Edge> edges_;
     LargeVector<Arm> arms_;  // of edges
-    // The outcomes of an edge lie together, in a block whose size is a power of two.
-    LargeVector<Outcome> outcomes_;
+    LargeVector<FirstValue> first_values_;
+    OutcomeTables outcomes_;
     LargeVector<std::byte> states_;
     StateTable ids_;
-    StateTable places_;  // of outcomes, from 1, where an edge has many
 };
 
 }  // namespace rddlc::planners

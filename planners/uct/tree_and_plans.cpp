@@ -51,7 +51,8 @@ PlannerContext plan_context(PlannerContext context) {
 
 bool TreeAndPlans::is_of_use(const UctOptions& options) {
     const Budget& budget = options.budget;
-    return options.policy.empty() && budget.steps.value_or(least_steps) >= least_steps &&
+    return options.plans && options.policy.empty() &&
+           budget.steps.value_or(least_steps) >= least_steps &&
            budget.iterations.value_or(trials_of_population) >= trials_of_population;
 }
 
@@ -64,7 +65,8 @@ TreeAndPlans::TreeAndPlans(const PlannerContext& context, const UctOptions& opti
             context.horizon),
       memories_(context.environments),
       streams_(static_cast<std::size_t>(noop_.count())),
-      violated_(streams_.size(), -1) {
+      violated_(streams_.size(), -1),
+      first_action_(static_cast<std::size_t>(context.simulator.problem->action_size)) {
     const auto* const action =
         static_cast<const std::byte*>(context.simulator.problem->default_action);
     for (std::int64_t k = 0; k < noop_.count(); ++k)
@@ -110,9 +112,8 @@ bool TreeAndPlans::is_fruitless() const {
 bool TreeAndPlans::find_plan(const DecisionPoint& point, std::byte* action,
                              Explanation* explanation) {
     if (!plans_) plans_ = std::make_unique<Cem>(plan_context(context_), plan_options(options_));
-    std::vector<std::byte> first(static_cast<std::size_t>(context_.simulator.problem->action_size));
     plan_ = {};
-    plans_->decide(point, first.data(), &plan_);
+    plans_->decide(point, first_action_.data(), &plan_);
     const auto& chosen = plan_.candidates.at(plan_.chosen);
     const auto noop =
         std::ranges::find(plan_.candidates, std::string("noop"), &Explanation::Candidate::name);
@@ -128,7 +129,7 @@ bool TreeAndPlans::find_plan(const DecisionPoint& point, std::byte* action,
             explanation->candidates.back().name = "plan";
         }
     }
-    if (is_better) std::ranges::copy(first, action);
+    if (is_better) std::ranges::copy(first_action_, action);
     return is_better;
 }
 

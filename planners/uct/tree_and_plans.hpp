@@ -20,7 +20,8 @@ namespace rddlc::planners {
 
 class TreeAndPlans : public Planner {
   public:
-    // Whether the options leave room for plans: no policy is given, and the budget is not tiny.
+    // Whether the options leave room for plans: they are wanted, no policy is given, and the budget
+    // is not tiny.
     static bool is_of_use(const UctOptions& options);
 
     TreeAndPlans(const PlannerContext& context, const UctOptions& options,
@@ -49,6 +50,7 @@ class TreeAndPlans : public Planner {
     std::vector<std::byte> noop_actions_;
     std::vector<std::int32_t> violated_;  // by no-op
     Explanation plan_;
+    std::vector<std::byte> first_action_;  // of the plan
 };
 
 }  // namespace rddlc::planners

@@ -85,7 +85,8 @@ void Uct::add_late_moves(NodeId id, DeterminisedProblem::StateId state) {
     };
     for (const auto& move : moves) {
         if (edge_of(move)) continue;
-        const double estimate = edge_of(twin_of(move, moves))->estimate;
+        const EdgeId twin = tree().id_of(*edge_of(twin_of(move, moves)));
+        const double estimate = tree().first_value(twin).estimate;
         tree().add_estimate(id, tree().add_edge(id, move.action), estimate);
     }
     tree().value_node(node);

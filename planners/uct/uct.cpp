@@ -95,6 +95,7 @@ Uct::Uct(const PlannerContext& context, const UctOptions& options)
       streams_(trials_.size()),
       keys_(trials_.size()),
       known_(trials_.size()),
+      rests_(trials_.size()),
       records_(trials_.size() * action_size_),
       states_(trials_.size() * state_size_) {
     const auto lanes = static_cast<std::int64_t>(continuations_.lanes());
@@ -221,26 +222,26 @@ void Uct::note_range() {
     for (const Arm& arm : tree().arms(tree().node(root_))) note_return(arm.value);
 }
 
-double Uct::bonus(const Node& node) const {
-    const double left = static_cast<double>(end_ - node.step) / static_cast<double>(end_ - step_);
+double Uct::bonus(std::int64_t step) const {
+    const double left = static_cast<double>(end_ - step) / static_cast<double>(end_ - step_);
     return std::max(exploration_ * range_of_returns(least_, most_) * left, 1e-9);
 }
 
 // Actions without a value come first. Then the best by value and by how little it was tried (UCB1).
-EdgeId Uct::choose_edge(const Node& node, RandomStream& stream) {
-    if (node.has_priors) return choose_by_prior(node);
+EdgeId Uct::choose_edge(const Node& node, double deviation, RandomStream& stream) {
+    if (node.has_priors) return choose_by_prior(node, deviation);
     if (node.untried > 0) return choose_untried(node, stream);
     const auto arms = tree().arms(node);
-    const double scale = bonus(node) * std::sqrt(std::log(1.0 + node.weight));
+    const double scale = deviation * root_of_logarithm(node.weight);
     std::size_t chosen = 0;
     double best = -std::numeric_limits<double>::infinity();
     // Trials that are under way count as tried, so that those beside them differ. Where all that
-    // was seen is alike, the least tried action comes next.
+    // was seen is alike, the least tried action comes next. Which action is better cannot be
+    // foreseen, so that there is no branch.
     for (std::size_t a = 0; a < arms.size(); ++a) {
         const double bound = arms[a].value + scale * static_cast<double>(arms[a].width);
-        if (!(bound > best)) continue;
-        best = bound;
-        chosen = a;
+        chosen = bound > best ? a : chosen;
+        best = bound > best ? bound : best;
     }
     return node.first_edge + static_cast<EdgeId>(chosen);
 }
@@ -254,15 +255,16 @@ EdgeId Uct::choose_untried(const Node& node, RandomStream& stream) {
 }
 
 // PUCT (Silver and others, 2017). An action that was not tried yet has the value of the node.
-EdgeId Uct::choose_by_prior(const Node& node) const {
-    const auto edges = tree().edges(node);
-    const double scale = bonus(node) * std::sqrt(1.0 + node.weight);
+EdgeId Uct::choose_by_prior(const Node& node, double deviation) const {
+    const auto first_values = tree().first_values(node);
+    const double scale = deviation * std::sqrt(1.0 + node.weight);
     std::size_t chosen = 0;
     double best = -std::numeric_limits<double>::infinity();
-    for (std::size_t e = 0; e < edges.size(); ++e) {
+    for (std::size_t e = 0; e < first_values.size(); ++e) {
         const Arm& arm = tree().arms(node)[e];
         const double value = arm.weight > 0 ? arm.value : node.value;
-        const double bound = value + scale * static_cast<double>(edges[e].prior) / (1 + arm.weight);
+        const double bound =
+            value + scale * static_cast<double>(first_values[e].prior) / (1 + arm.weight);
         if (!(bound > best)) continue;
         best = bound;
         chosen = e;
@@ -277,7 +279,7 @@ bool Uct::run_trials(const DecisionPoint& point, RandomStream& stream, BudgetMet
     for (Trial& trial : trials_) {
         trial.node = root_;
         trial.is_down = false;
-        trial.hops.clear();
+        trial.hops = 0;
     }
     for (std::int64_t step = step_; step_trials(stream, step, meter); ++step) {
     }
@@ -290,7 +292,7 @@ bool Uct::run_trials(const DecisionPoint& point, RandomStream& stream, BudgetMet
         }
     }
     ripe_.clear();
-    for (const Trial& trial : trials_) back_up(trial);
+    back_up_trials();
     for (const NodeId id : ripe_)  // some are there twice
         if (tree().node(id).weight >= tree().node(id).twins_at)
             compare_twins(id, point, stream, meter);
@@ -299,50 +301,57 @@ bool Uct::run_trials(const DecisionPoint& point, RandomStream& stream, BudgetMet
 }
 
 void Uct::cancel_trials() {
-    for (const Trial& trial : trials_)
-        for (const Trial::Hop& hop : trial.hops) tree().cancel(hop.node, hop.edge, hop.outcome);
+    for (std::size_t k = 0; k < trials_.size(); ++k)
+        for (std::size_t h = 0; h < trials_[k].hops; ++h) tree().cancel(hop(h, k).made);
 }
 
 // False: all have reached their leaves.
 bool Uct::step_trials(RandomStream& stream, std::int64_t step, BudgetMeter& meter) {
+    const auto h = static_cast<std::size_t>(step - step_);
+    if (hops_.size() < (h + 1) * trials_.size()) hops_.resize((h + 1) * trials_.size());
+    const std::int64_t moving = start_hops(stream, step);
+    if (moving == 0) return false;
+    write_actions(h);
+    trees_.step(records_.data());
+    meter.add_steps(moving);
+    if (step + 1 < end_ || goes_on_) ask_for_nodes(h, step + 1);
+    for (std::size_t k = 0; k < trials_.size(); ++k)
+        if (!trials_[k].is_down) follow(h, k, stream, step + 1);
+    return true;
+}
+
+std::int64_t Uct::start_hops(RandomStream& stream, std::int64_t step) {
     std::int64_t moving = 0;
-    for (const Trial& trial : trials_)
-        if (!trial.is_down) tree().prefetch_arms(tree().node(trial.node));
-    for (Trial& trial : trials_) {
+    const double deviation = bonus(step);
+    for (std::size_t k = 0; k < trials_.size(); ++k) {
+        Trial& trial = trials_[k];
         const Node& node = tree().node(trial.node);
         trial.is_down = trial.is_down || !node.is_open || node.is_locked;
         if (trial.is_down) continue;
         if (node.edge_count == 0) open_edges(trial.node);
-        const EdgeId edge = choose_edge(node, stream);
+        const EdgeId edge = choose_edge(node, deviation, stream);
         tree().start(trial.node, edge);
         tree().prefetch_edge(edge);
-        trial.hops.push_back({trial.node, edge, 0, 0});
+        hop(trial.hops++, k).made = {trial.node, edge, Tree::over, 0};
         ++moving;
     }
-    if (moving == 0) return false;
-    write_actions();
-    trees_.step(records_.data());
-    meter.add_steps(moving);
-    solvers::require_done(simulator_,
-                          simulator_.get_state(trees_.batch(), 0, trees_.count(), states_.data()));
-    find_keys(step + 1);
-    for (std::size_t k = 0; k < trials_.size(); ++k)
-        if (!trials_[k].is_down) follow(k, stream, step + 1);
-    return true;
+    return moving;
 }
 
 // Trials that are down do anything.
-void Uct::write_actions() {
+void Uct::write_actions(std::size_t h) {
     for (std::size_t k = 0; k < trials_.size(); ++k) {
-        const Trial& trial = trials_[k];
-        const std::uint32_t action = trial.is_down ? 0 : tree().edge(trial.hops.back().edge).action;
+        const std::uint32_t action =
+            trials_[k].is_down ? 0 : tree().edge(hop(h, k).made.edge).action;
         std::copy_n(actions_.record(action), action_size_, records_.data() + k * action_size_);
     }
 }
 
-// Finds the keys of the states where trials are. Most of the time of a trial is that of the memory
-// which it reads, so it is asked for ahead.
-void Uct::find_keys(std::int64_t step) {
+// Most of the time of a trial is that of the memory which it reads, so it is asked for ahead: where
+// nodes are, and then the nodes and outcomes.
+void Uct::ask_for_nodes(std::size_t h, std::int64_t step) {
+    solvers::require_done(simulator_,
+                          simulator_.get_state(trees_.batch(), 0, trees_.count(), states_.data()));
     for (std::size_t k = 0; k < trials_.size(); ++k) {
         if (trials_[k].is_down) continue;
         keys_[k] = tree().key_of(states_.data() + k * state_size_, step);
@@ -351,69 +360,80 @@ void Uct::find_keys(std::int64_t step) {
     for (std::size_t k = 0; k < trials_.size(); ++k) {
         if (trials_[k].is_down) continue;
         const NodeId* const known = tree().find(keys_[k]);
-        known_[k] = known ? *known : Tree::over;
+        known_[k] = known ? *known : no_node;
         if (!known) continue;
         tree().prefetch_node(*known);
-        tree().prefetch_outcome(trials_[k].hops.back().edge, *known);
+        tree().prefetch_outcome(hop(h, k).made.edge, *known);
     }
-}
-
-// Another trial may have made it since the keys were found.
-NodeId Uct::known_node(std::size_t k) const {
-    if (known_[k] != Tree::over) return known_[k];
-    const NodeId* const known = tree().find(keys_[k]);
-    return known ? *known : Tree::over;
 }
 
 // Follows the trial's environment to the node where it is now.
-void Uct::follow(std::size_t k, RandomStream& stream, std::int64_t step) {
+void Uct::follow(std::size_t h, std::size_t k, RandomStream& stream, std::int64_t step) {
     Trial& trial = trials_[k];
-    Trial::Hop& hop = trial.hops.back();
-    hop.reward = trees_.reward(k);
-    const std::byte* const state = states_.data() + k * state_size_;
-    NodeId next = Tree::over;
+    auto& [made, reward] = hop(h, k);
+    reward = trees_.reward(k);
     if (trees_.is_running(k) && (step < end_ || goes_on_)) {
-        if (const NodeId known = known_node(k); known != Tree::over) {
-            next = known;
-        } else if (is_full(hop.edge) &&
-                   (next = tree().seen_outcome(hop.edge, stream.unit())) != Tree::over) {
-            // Progressive widening: the trial goes on from an outcome that was seen before.
+        made.after = node_after(made.edge, k, stream, step);
+        ask_for_value(made.after);
+        tree().prefetch_arms(tree().node(made.after));
+        made.outcome = tree().add_outcome(made.edge, made.after);
+    }
+    trial.node = made.after;
+}
+
+NodeId Uct::node_after(EdgeId edge, std::size_t k, RandomStream& stream, std::int64_t step) {
+    if (known_[k] != no_node) return known_[k];
+    // Another trial may have made it since.
+    if (const NodeId* const known = tree().find(keys_[k])) return *known;
+    if (is_full(edge)) {
+        // Progressive widening: the trial goes on from an outcome that was seen before.
+        const NodeId seen = tree().seen_outcome(edge, stream.unit());
+        if (seen != Tree::over) {
             solvers::require_done(
                 simulator_, simulator_.set_state(trees_.batch(), static_cast<std::int64_t>(k), 1,
-                                                 tree().state(next), &step));
-        } else {
-            next = tree().node_of(keys_[k], state, step);
-            if (!is_determinised())  // otherwise it knows what is legal
-                add_edges(next, {trees_.batch(), static_cast<std::int64_t>(k)});
-        }
-        Node& node = tree().node(next);
-        if (is_stale(node)) node.is_open = false;
-        if (!node.is_open && !node.is_asked) {
-            node.is_asked = true;
-            new_nodes_.push_back(next);
+                                                 tree().state(seen), &step));
+            return seen;
         }
     }
-    hop.outcome = tree().add_outcome(hop.edge, next);
-    trial.node = next;
+    const NodeId made = tree().node_of(keys_[k], states_.data() + k * state_size_, step);
+    if (!is_determinised())  // otherwise it knows what is legal
+        add_edges(made, {trees_.batch(), static_cast<std::int64_t>(k)});
+    return made;
+}
+
+// If it has none.
+void Uct::ask_for_value(NodeId id) {
+    Node& node = tree().node(id);
+    if (is_stale(node)) node.is_open = false;
+    if (node.is_open || node.is_asked) return;
+    node.is_asked = true;
+    new_nodes_.push_back(id);
 }
 
 // Whether the edge has as many outcomes as its trials may distinguish.
 bool Uct::is_full(EdgeId edge) const {
-    return has_all_outcomes(options_, tree().arm(edge).weight, tree().edge(edge).outcome_count);
+    return has_all_outcomes(options_, tree().arm(edge).weight, tree().edge(edge).outcomes.count);
 }
 
-void Uct::back_up(const Trial& trial) {
-    double rest = tree().node(trial.node).value;
-    memory_->deepest =
-        std::max(memory_->deepest, step_ + static_cast<std::int64_t>(trial.hops.size()));
-    for (std::size_t h = trial.hops.size(); h-- > 0;) {
-        const Trial::Hop& hop = trial.hops[h];
-        tree().back_up(hop.node, hop.edge, hop.outcome, hop.reward, rest);
-        const Node& node = tree().node(hop.node);
-        if (node.weight >= node.twins_at) ripe_.push_back(hop.node);
-        rest = hop.reward + tree().discount() * rest;
+// One depth after the other, so that nodes have the values of all trials before these are seen from
+// above.
+void Uct::back_up_trials() {
+    std::size_t deepest = 0;
+    for (std::size_t k = 0; k < trials_.size(); ++k) {
+        rests_[k] = tree().node(trials_[k].node).value;
+        deepest = std::max(deepest, trials_[k].hops);
     }
-    note_return(rest);
+    memory_->deepest = std::max(memory_->deepest, step_ + static_cast<std::int64_t>(deepest));
+    for (std::size_t h = deepest; h-- > 0;)
+        for (std::size_t k = 0; k < trials_.size(); ++k) {
+            if (h >= trials_[k].hops) continue;
+            const auto& [made, reward] = hop(h, k);
+            tree().back_up(made, reward, rests_[k]);
+            const Node& node = tree().node(made.node);
+            if (node.weight >= node.twins_at) ripe_.push_back(made.node);
+            rests_[k] = reward + tree().discount() * rests_[k];
+        }
+    for (const double value : rests_) note_return(value);
 }
 
 void Uct::note_return(double value) {
@@ -428,15 +448,16 @@ EdgeId Uct::best_edge() const {
     EdgeId chosen = node.first_edge;
     float likeliest = 0;  // is taken where there were no trials
     for (const Edge& edge : tree().edges(node)) {
-        most = std::max(most, edge.known_weight());
-        if (edge.prior <= likeliest) continue;
-        likeliest = edge.prior;
+        most = std::max(most, edge.known_weight);
+        const float prior = tree().first_value(tree().id_of(edge)).prior;
+        if (prior <= likeliest) continue;
+        likeliest = prior;
         chosen = tree().id_of(edge);
     }
     double best = -std::numeric_limits<double>::infinity();
     for (const Edge& edge : tree().edges(node)) {
         const EdgeId id = tree().id_of(edge);
-        const std::int32_t weight = edge.known_weight();
+        const std::int32_t weight = edge.known_weight;
         if (weight == 0 || weight < least_tried * most || !(tree().arm(id).value > best)) continue;
         best = tree().arm(id).value;
         chosen = id;
@@ -512,7 +533,8 @@ void Uct::note_explanation(Explanation& explanation, EdgeId chosen, const Budget
     explanation.chosen = chosen - root.first_edge;
     for (const Edge& edge : tree().edges(root)) {
         const std::byte* const record = actions_.record(edge.action);
-        const std::int32_t trials = edge.done + edge.estimates;
+        const std::int32_t draws = tree().first_value(tree().id_of(edge)).draws;
+        const std::int32_t trials = edge.known_weight + std::max(0, draws - 1);
         const double value = trials > 0 ? tree().arm(tree().id_of(edge)).value : 0;
         explanation.candidates.push_back(
             {"action", {record, record + action_size_}, value, 0, trials});

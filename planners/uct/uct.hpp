@@ -37,14 +37,12 @@ class Uct : public TreeSearch {
     // A trial on its way down.
     struct Trial {
         NodeId node;
-        bool is_down;  // it has reached its leaf
-        struct Hop {
-            NodeId node;
-            EdgeId edge;
-            std::uint32_t outcome;
-            double reward;
-        };
-        std::vector<Hop> hops;
+        bool is_down;      // it has reached its leaf
+        std::size_t hops;  // that it has made
+    };
+    struct Hop {
+        Transition made;
+        double reward;
     };
 
     // The memory of an episode, from one decision to the next.
@@ -78,16 +76,21 @@ class Uct : public TreeSearch {
     bool run_trials(const DecisionPoint& point, RandomStream& stream, BudgetMeter& meter);
     bool step_trials(RandomStream& stream, std::int64_t depth, BudgetMeter& meter);
     void cancel_trials();
-    void write_actions();
-    void find_keys(std::int64_t step);
-    // The node where trial k is; Tree::over: it is new.
-    NodeId known_node(std::size_t k) const;
-    void follow(std::size_t k, RandomStream& stream, std::int64_t depth);
-    EdgeId choose_edge(const Node& node, RandomStream& stream);
+    // Hop number h of trial k.
+    Hop& hop(std::size_t h, std::size_t k) { return hops_[h * trials_.size() + k]; }
+    // Each trial that is not down takes an action. So many do.
+    std::int64_t start_hops(RandomStream& stream, std::int64_t step);
+    void write_actions(std::size_t h);
+    void ask_for_nodes(std::size_t h, std::int64_t step);
+    void follow(std::size_t h, std::size_t k, RandomStream& stream, std::int64_t step);
+    // The node of trial k's state after that edge.
+    NodeId node_after(EdgeId edge, std::size_t k, RandomStream& stream, std::int64_t step);
+    void ask_for_value(NodeId node);
+    EdgeId choose_edge(const Node& node, double deviation, RandomStream& stream);
     EdgeId choose_untried(const Node& node, RandomStream& stream);
-    EdgeId choose_by_prior(const Node& node) const;
-    // The deviation of values that counts as much as a lack of trials, at that node.
-    double bonus(const Node& node) const;
+    EdgeId choose_by_prior(const Node& node, double deviation) const;
+    // The deviation of values that counts as much as a lack of trials, in nodes of that step.
+    double bonus(std::int64_t step) const;
     // The actions that are legal there.
     void add_edges(NodeId node, const Origin& origin);
     bool value_new_nodes(const DecisionPoint& point, RandomStream& stream, BudgetMeter& meter,
@@ -137,7 +140,7 @@ class Uct : public TreeSearch {
     bool is_unchanged(NodeId id, std::size_t n, std::size_t k) const;
     void note_range();
     bool is_full(EdgeId edge) const;
-    void back_up(const Trial& trial);
+    void back_up_trials();
     void note_return(double value);
     double value_of(std::size_t k) const;
     EdgeId best_edge() const;
@@ -166,9 +169,11 @@ class Uct : public TreeSearch {
     std::int64_t step_ = 0;  // of the episode
     std::int64_t end_ = 0;   // the step that the search looks ahead to
     std::vector<Trial> trials_;
+    std::vector<Hop> hops_;  // of one depth after the other, each of all trials
     std::vector<std::uint64_t> streams_;
     std::vector<std::uint64_t> keys_;  // of the nodes where trials are
-    std::vector<NodeId> known_;        // these nodes; Tree::over: they are new
+    std::vector<NodeId> known_;        // these nodes; no_node: they are new
+    std::vector<double> rests_;        // what trials were worth, from a hop on
     std::vector<std::byte> records_, states_, judged_states_;
     std::vector<std::int64_t> judged_steps_;
     std::vector<float> prior_rows_;

@@ -46,6 +46,11 @@ solvers::OptionTable<UctOptions> make_uct_table() {
              "States that a search in the determinised problem may meet, beginning with that of "
              "the decision: it is as deep as that allows (256)"},
             [](auto& o) -> auto& { return o.lookahead; }, 1, 1 << 20),
+        choice_option<UctOptions, bool>(
+            {"plans", "plans", "yes|no",
+             "Give a part of the budget to plans of plan:cem where the tree finds nothing better "
+             "than no-op in three decisions, and prefer no-op to what is worse (yes)"},
+            [](auto& o) -> auto& { return o.plans; }, {{"yes", true}, {"no", false}}),
         choice_option<UctOptions, Backup>(
             {"backup", "backup", "HOW",
              "A state is worth its best action by the outcomes that were seen (max, the default), "

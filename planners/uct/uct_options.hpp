@@ -20,6 +20,7 @@ struct UctOptions : CommonOptions {
     double width = 1, widening = 0.5;
     Backup backup = Backup::Max;
     int lookahead = 256;  // states that a search in the determinised problem may meet
+    bool plans = true;    // see TreeAndPlans
     // Nothing: Value with a policy that has values, Lookahead with another one, else Determinised.
     std::optional<Initial> initial;
     const char* option_for_values() const {

@@ -144,6 +144,7 @@ TEST(Uct, FindsADistantGoalByPlans) {
     for (const std::int64_t step : {0, 1, 2}) EXPECT_FALSE(is_plan(step)) << step;
     EXPECT_TRUE(is_plan(3));
     EXPECT_EQ(run(*problem.simulator, planner, 2, 2).returns().front(), played.returns().front());
+    EXPECT_EQ(run(*problem.simulator, planner + ",plans=no").mean(), -30);  // as no-op
     // A population of plans takes more than few trials.
     const Played few = run(*problem.simulator, "plan:uct,iterations=1,lanes=8,initial=rollout");
     for (const auto& [place, thought] : few.explanation) EXPECT_LT(thought.steps, 5000);

@@ -33,7 +33,7 @@ struct SmallTree {
     void go(NodeId from, EdgeId edge, NodeId to, double value) {
         tree.start(from, edge);
         tree.node(to).value = value;
-        tree.back_up(from, edge, tree.add_outcome(edge, to), 0, value);
+        tree.back_up({from, edge, to, tree.add_outcome(edge, to)}, 0, value);
     }
 };
 
@@ -109,7 +109,7 @@ TEST(DeterminisedProblem, MakesMovesOfTwinsThatDiffer) {
     EXPECT_EQ(problem.moves(start).size(), 2u);
 }
 
-// Where an edge has many outcomes, a table has their places.
+// Each edge has a table of its own, which moves as it grows.
 TEST(Tree, FindsEachOfManyOutcomes) {
     constexpr std::int32_t count = 40;
     Tree tree(sizeof(std::int32_t), 1, Backup::Max);
@@ -122,11 +122,35 @@ TEST(Tree, FindsEachOfManyOutcomes) {
     for (int round = 0; round < 3; ++round)
         for (std::int32_t state = 0; state < count; ++state)
             for (const EdgeId edge : edges) {
-                tree.start(root, edge);
-                const std::uint32_t place = tree.add_outcome(edge, node_of(state, 1));
-                EXPECT_EQ(place, static_cast<std::uint32_t>(state));
+                const NodeId node = node_of(state, 1);
+                const std::uint32_t place = tree.add_outcome(edge, node);
+                EXPECT_TRUE(tree.edge(edge).outcomes.has(place));
+                EXPECT_EQ(tree.add_outcome(edge, node), place);
             }
-    for (const EdgeId edge : edges) EXPECT_EQ(tree.edge(edge).outcome_count, count);
+    for (const EdgeId edge : edges) EXPECT_EQ(tree.edge(edge).outcomes.count, count);
+}
+
+// Trials of a round end after all of them have met their outcomes.
+TEST(Tree, FindsAnOutcomeWhoseTableHasGrown) {
+    SmallTree small;
+    Tree& tree = small.tree;
+    const NodeId root = small.open(0, 0);
+    const EdgeId edge = tree.add_edge(root, 0);
+    constexpr std::uint32_t count = 100;
+    std::vector<Transition> made;
+    for (std::uint32_t k = 0; k < count; ++k) {
+        const NodeId node = small.open(k, 1);
+        tree.node(node).value = k;
+        tree.start(root, edge);
+        made.push_back({root, edge, node, tree.add_outcome(edge, node)});
+    }
+    for (const Transition& each : made) tree.back_up(each, 0, 0);
+    EXPECT_EQ(tree.edge(edge).outcomes.count, count);
+    EXPECT_EQ(tree.arm(edge).value, 49.5);
+    const std::uint32_t place = made.back().outcome;
+    tree.start(root, edge);
+    tree.cancel({root, edge, made.back().after, place});
+    EXPECT_EQ(tree.arm(edge).weight, static_cast<std::int32_t>(count));
 }
 
 // Edges that are added later leave those that there are as they were.
@@ -138,18 +162,20 @@ TEST(Tree, AddsEdgesLater) {
     tree.add_estimate(node, tree.add_edge(node, 5), 3);
     tree.add_estimate(other, tree.add_edge(other, 6), 4);
     tree.start(node, tree.node(node).first_edge);
-    tree.back_up(node, tree.node(node).first_edge,
-                 tree.add_outcome(tree.node(node).first_edge, other), 1, 0);
+    const EdgeId only = tree.node(node).first_edge;
+    tree.back_up({node, only, other, tree.add_outcome(only, other)}, 1, 0);
     tree.reopen_edges(node);
     tree.add_estimate(node, tree.add_edge(node, 7), 2);
     const auto edges = tree.edges(tree.node(node));
     ASSERT_EQ(edges.size(), 2u);
     EXPECT_EQ(edges[0].action, 5u);
-    EXPECT_EQ(edges[0].done, 1);
+    EXPECT_EQ(edges[0].known_weight, 2);  // with its first value
+    EXPECT_EQ(tree.arms(tree.node(node))[0].value, 2);
     EXPECT_EQ(edges[1].action, 7u);
     EXPECT_EQ(tree.arms(tree.node(node))[0].weight, 2);
     EXPECT_EQ(tree.node(node).weight, 3);
-    EXPECT_EQ(tree.add_outcome(tree.node(node).first_edge, other), 0u);  // not another one
+    tree.add_outcome(tree.node(node).first_edge, other);
+    EXPECT_EQ(edges[0].outcomes.count, 1u);  // not another one
     EXPECT_EQ(tree.edges(tree.node(other))[0].action, 6u);
 }
 
@@ -164,7 +190,7 @@ TEST(Tree, SumsOutcomesAsTheyCome) {
     const EdgeId left = tree.add_edge(node, 0), right = tree.add_edge(node, 1);
     const auto go = [&](EdgeId edge, NodeId to) {
         tree.start(node, edge);
-        tree.back_up(node, edge, tree.add_outcome(edge, to), 0, 0);
+        tree.back_up({node, edge, to, tree.add_outcome(edge, to)}, 0, 0);
         return tree.arm(edge).value;
     };
     tree.node(good).value = 6;
@@ -204,15 +230,14 @@ TEST(Tree, KeepsWhatIsBelowAnAction) {
     const auto start = [&](NodeId from, std::uint32_t action, NodeId to) {
         const EdgeId edge = tree.node(from).first_edge + action;
         tree.start(from, edge);
-        return tree.add_outcome(edge, to);
+        return Transition{from, edge, to, tree.add_outcome(edge, to)};
     };
     const auto go = [&](NodeId from, std::uint32_t action, NodeId to, double reward, double rest) {
-        const std::uint32_t outcome = start(from, action, to);
-        tree.back_up(from, tree.node(from).first_edge + action, outcome, reward, rest);
+        tree.back_up(start(from, action, to), reward, rest);
     };
     go(last, 1, Tree::over, 5, 0);
     go(right, 0, last, 1, 5);
-    tree.cancel(right, tree.node(right).first_edge, start(right, 0, closed));
+    tree.cancel(start(right, 0, closed));
     go(root, 0, left, 0, 0);
     go(root, 1, right, 2, 6);
     const double value = tree.node(right).value;
@@ -225,15 +250,15 @@ TEST(Tree, KeepsWhatIsBelowAnAction) {
     ASSERT_NE(kept, nullptr);
     EXPECT_EQ(tree.node(*kept).value, value);
     const Edge& edge = tree.edges(tree.node(*kept))[0];
-    EXPECT_EQ(edge.done, 1);
+    EXPECT_EQ(edge.known_weight, 1);
     EXPECT_EQ(tree.node(*kept).weight, 1);
     EXPECT_EQ(tree.node(*kept).untried, 1);
-    EXPECT_EQ(edge.outcome_count, 1);
+    EXPECT_EQ(edge.outcomes.count, 1u);
     EXPECT_EQ(tree.seen_outcome(tree.id_of(edge), 0.5), *tree.find(state(4).data(), 2));
     EXPECT_EQ(tree.arms(tree.node(*tree.find(state(4).data(), 2)))[1].value, 5);
 }
 
-// Edges that get other numbers find their outcomes: few ones, and those that a table has.
+// Edges that get other numbers find their outcomes.
 TEST(Tree, FindsOutcomesOfReopenedEdges) {
     for (const std::uint32_t count : {8u, 9u, 40u}) {
         SCOPED_TRACE(count);
@@ -248,7 +273,7 @@ TEST(Tree, FindsOutcomesOfReopenedEdges) {
         meet_all(right, 10);
         tree.reopen_edges(root);
         meet_all(tree.node(root).first_edge, 2);
-        EXPECT_EQ(tree.edges(tree.node(root))[0].outcome_count, count);
+        EXPECT_EQ(tree.edges(tree.node(root))[0].outcomes.count, count);
         EXPECT_EQ(tree.arms(tree.node(root))[0].value, 2);
         EXPECT_EQ(tree.arms(tree.node(root))[1].value, 10);
     }
@@ -269,7 +294,7 @@ TEST(Tree, FindsOutcomesThatWereKept) {
     const NodeId kept = small.open(2, 1);
     for (const EdgeId edge : {0u, 1u}) {
         small.go(kept, tree.node(kept).first_edge + edge, small.open(3, 2), 2);
-        EXPECT_EQ(tree.edges(tree.node(kept))[edge].outcome_count, 1u);
+        EXPECT_EQ(tree.edges(tree.node(kept))[edge].outcomes.count, 1u);
         EXPECT_EQ(tree.arms(tree.node(kept))[edge].value, 2);
     }
 }

@@ -131,6 +131,17 @@ class Batch {
     void get_state(std::int64_t i, std::byte* record) const {
         write_record(L{}, state_columns_, state(i / width), lane_of(i), record);
     }
+    // The states of environments [begin, begin + count).
+    void get_states(std::int64_t begin, std::int64_t count, std::byte* records) const {
+        const std::int64_t size = state_columns_.row_size;
+        for_each_part(
+            begin, count,
+            [&](std::int64_t b) {
+                write_records(L{}, state_columns_, state(b), records + (b * width - begin) * size,
+                              width);
+            },
+            [&](std::int64_t i) { get_state(i, records + (i - begin) * size); });
+    }
     // A fully observed problem observes its state.
     void get_observation(std::int64_t i, std::byte* record) const {
         write_record(L{}, observation_columns_, observed(i / width), lane_of(i), record);
@@ -146,6 +157,21 @@ class Batch {
             set_lane(at(i).ends.beyond_horizon, lane_of(i), true);
     }
 
+    // The same for environments [begin, begin + count).
+    void set_states(std::int64_t begin, std::int64_t count, const std::byte* records,
+                    const std::int64_t* steps) {
+        const std::int64_t size = state_columns_.row_size;
+        const auto steps_from = [&](std::int64_t i) {
+            return steps != nullptr ? steps + (i - begin) : nullptr;
+        };
+        for_each_part(
+            begin, count,
+            [&](std::int64_t b) {
+                set_block(b, records + (b * width - begin) * size, steps_from(b * width));
+            },
+            [&](std::int64_t i) { set_state(i, records + (i - begin) * size, steps_from(i)); });
+    }
+
     // Sets the random numbers from now on, and of the episodes that follow, which are counted from
     // 0.
     void set_stream(std::int64_t i, const Stream& stream) {
@@ -158,6 +184,20 @@ class Batch {
         } else {
             set_keys(blocks_, i / width, only(i));
         }
+    }
+    // The same for environments [begin, begin + count), by stream_of(i).
+    template <class StreamOf>
+    void set_streams(std::int64_t begin, std::int64_t count, StreamOf&& new_stream_of) {
+        for_each_part(
+            begin, count,
+            [&](std::int64_t b) {
+                at(b * width).number = typename L::Int{-1};
+                if (streams_.empty()) return;
+                for (std::int64_t i = b * width; i < (b + 1) * width; ++i)
+                    streams_[index(i)] = new_stream_of(i);
+                set_keys(blocks_, b, Bool{true});
+            },
+            [&](std::int64_t i) { set_stream(i, new_stream_of(i)); });
     }
     // Sets the seed as in a new batch.
     void set_seed(std::uint64_t seed) {
@@ -199,13 +239,14 @@ class Batch {
     void set_environments(std::int64_t begin, std::int64_t count, const Environment& from) {
         const std::int64_t end = begin + count;
         for (std::int64_t i = begin; i < end;) {
-            const bool repeats = width > 1 && i % width == 0 && i - begin >= width &&
-                                 i + width <= end && !keeps_steps();
-            if (repeats)
+            const bool is_whole = width > 1 && i % width == 0 && i + width <= end && !keeps_steps();
+            if (is_whole && i - begin >= width)
                 repeat_block(i / width);
+            else if (is_whole)
+                fill_block(i / width, from);
             else
                 set_environment(i, from);
-            i += repeats ? width : 1;
+            i += is_whole ? width : 1;
         }
     }
 
@@ -426,6 +467,35 @@ class Batch {
         return options_.partially_observed ? observations_[b] : state(b);
     }
 
+    // Calls whole(b) for the blocks of environments [begin, begin + count), and one(i) for what is
+    // left of them at both ends.
+    template <class Whole, class One>
+    static void for_each_part(std::int64_t begin, std::int64_t count, Whole&& whole, One&& one) {
+        const std::int64_t end = begin + count;
+        for (std::int64_t i = begin; i < end;) {
+            const bool is_whole = width > 1 && i % width == 0 && i + width <= end;
+            if (is_whole)
+                whole(i / width);
+            else
+                one(i);
+            i += is_whole ? width : 1;
+        }
+    }
+
+    // The states of all environments of a block.
+    void set_block(std::int64_t b, const std::byte* records, const std::int64_t* steps) {
+        Episodes<L>& episodes = episodes_[index(b)];
+        read_records(L{}, state_columns_, records, width, state(b));
+        episodes.has_fault = Bool{false};
+        for (int lane = 0; steps != nullptr && lane < width; ++lane)
+            set_lane(episodes.steps, lane, steps[lane]);
+        end_if_terminal(*engine_, episodes, Bool{true}, state(b));
+        if (steps == nullptr) return;
+        const Bool are_late{episodes.steps >= typename L::Int{blocks_.horizon}};
+        episodes.ends.beyond_horizon =
+            episodes.ends.beyond_horizon || (are_late && !episodes.ends.faulted);
+    }
+
     template <class Body>
     void for_each_share(Body&& body) {
         team_.run([&](int worker) {
@@ -565,6 +635,14 @@ class Batch {
         return end;
     }
 
+    // All environments of a block become the same.
+    void fill_block(std::int64_t b, const Environment& from) {
+        set_environment(b * width, from);
+        repeat_lane(L{}, state_columns_, state(b));
+        if (options_.partially_observed) repeat_lane(L{}, observation_columns_, observations_[b]);
+        for (int lane = 1; lane < width; ++lane) episodes_[index(b)].set(lane, from.episode);
+        if (!streams_.empty()) std::fill_n(streams_.begin() + b * width, width, from.stream);
+    }
     // A whole block becomes as the one before it.
     void repeat_block(std::int64_t b) {
         copy_record(state(b), state(b - 1), engine_->state_size());

@@ -407,10 +407,11 @@ class Functions {
         if (batch == nullptr) return missing("the batch");
         if (lacks(states, count, handle(batch).problem().state_size))
             return missing("the room for states");
-        return for_each(batch, begin, count, [&](const auto& all, std::int64_t k, std::int64_t i) {
-            const std::int64_t size = handle(batch).problem().state_size;
-            all.get_state(i, static_cast<std::byte*>(states) + k * size);
+        if (const rddl_error error = handle(batch).check(begin, count)) return error;
+        handle(batch).use([&](const auto& environments) {
+            environments.get_states(begin, count, static_cast<std::byte*>(states));
         });
+        return RDDL_OK;
     }
 
     static rddl_error get_observation(const rddl_batch* batch, std::int64_t begin,
@@ -436,10 +437,7 @@ class Functions {
             const auto* const records = static_cast<const std::byte*>(states);
             if (!environments.accepts_states(records, count))
                 return refuse_records(handle(batch).problem(), RDDL_STATE, records, begin, count);
-            const std::int64_t size = handle(batch).problem().state_size;
-            for (std::int64_t k = 0; k < count; ++k)
-                environments.set_state(begin + k, records + k * size,
-                                       steps != nullptr ? steps + k : nullptr);
+            environments.set_states(begin, count, records, steps);
             return RDDL_OK;
         });
     }
@@ -526,17 +524,24 @@ class Functions {
         return sources != nullptr ? sources[k] : k;
     }
 
+    template <class StreamOf>
+    static rddl_error set_streams(rddl_batch* batch, std::int64_t begin, std::int64_t count,
+                                  StreamOf&& stream_of) {
+        if (batch == nullptr) return missing("the batch");
+        if (const rddl_error error = handle(batch).check(begin, count)) return error;
+        handle(batch).use(
+            [&](auto& environments) { environments.set_streams(begin, count, stream_of); });
+        return RDDL_OK;
+    }
     static rddl_error set_seeds(rddl_batch* batch, std::int64_t begin, std::int64_t count,
                                 const std::uint64_t* seeds) {
         if (seeds == nullptr) return missing("the array of seeds");
-        return for_each(batch, begin, count, [&](auto& all, std::int64_t k, std::int64_t i) {
-            all.set_stream(i, {.seed = seeds[k], .identity = 0});
+        return set_streams(batch, begin, count, [&](std::int64_t i) -> Stream {
+            return {.seed = seeds[i - begin], .identity = 0};
         });
     }
     static rddl_error draw_medians(rddl_batch* batch, std::int64_t begin, std::int64_t count) {
-        return for_each(batch, begin, count, [&](auto& all, std::int64_t, std::int64_t i) {
-            all.set_stream(i, Stream::of_medians());
-        });
+        return set_streams(batch, begin, count, [](std::int64_t) { return Stream::of_medians(); });
     }
     static rddl_error set_seed(rddl_batch* batch, std::uint64_t seed) {
         if (batch == nullptr) return missing("the batch");

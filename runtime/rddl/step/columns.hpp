@@ -91,9 +91,9 @@ constexpr bool are_neighbours(const rddl_fluent& first, const rddl_fluent& secon
 }
 
 // Calls body(first, last) with the fluents of each column.
-template <class L, class Body>
-constexpr void for_each_group(const rddl_problem& problem, rddl_role role, Body&& body) {
-    const bool are_apart = have_own_columns<L>(fluent_count(problem, role), role);
+template <class Body>
+constexpr void for_each_group(const rddl_problem& problem, rddl_role role, bool are_apart,
+                              Body&& body) {
     // Numbers, not pointers: with its sanitizers, g++ compares no pointer with null at compile
     // time.
     constexpr std::int32_t none = -1;
@@ -111,21 +111,22 @@ constexpr void for_each_group(const rddl_problem& problem, rddl_role role, Body&
     if (last != none) body(problem.fluents[first], problem.fluents[last]);
 }
 
-template <class L>
-constexpr std::size_t column_count(const rddl_problem& problem, rddl_role role) {
+constexpr std::size_t column_count(const rddl_problem& problem, rddl_role role, bool are_apart) {
     std::size_t count = 0;
-    for_each_group<L>(problem, role, [&](const rddl_fluent&, const rddl_fluent&) { ++count; });
+    for_each_group(problem, role, are_apart,
+                   [&](const rddl_fluent&, const rddl_fluent&) { ++count; });
     return count;
 }
 
 // Fills a list that is as long as the columns of the role are many.
 template <class L, class List>
-constexpr void lay_out(ColumnTable<List>& columns, const rddl_problem& problem, rddl_role role) {
+constexpr void lay_out(ColumnTable<List>& columns, const rddl_problem& problem, rddl_role role,
+                       bool are_apart) {
     const auto round_up = [](std::int64_t a, std::int64_t unit) {
         return (a + unit - 1) / unit * unit;
     };
     std::size_t place = 0;
-    for_each_group<L>(problem, role, [&](const rddl_fluent& fluent, const rddl_fluent& last) {
+    const auto add = [&](const rddl_fluent& fluent, const rddl_fluent& last) {
         const bool is_object = fluent.range_type >= 0;
         const std::int64_t limit = is_object ? problem.types[fluent.range_type].object_count : 0;
         const std::int64_t size = fluent.scalar == RDDL_BOOL ? 1 : 8;
@@ -140,24 +141,29 @@ constexpr void lay_out(ColumnTable<List>& columns, const rddl_problem& problem, 
         columns.value_count += count;
         columns.has_bools |= fluent.scalar == RDDL_BOOL;
         columns.has_objects |= is_object;
-    });
+    };
+    for_each_group(problem, role, are_apart, add);
     columns.block_size = round_up(columns.block_size, columns.alignment);
 }
 
 }  // namespace detail
 
-// The fluents of a role, laid out in a block as C++ lays out the emitted struct.
+// The fluents of a role, laid out in a block as C++ lays out the emitted struct. Columns that are
+// not known when the simulator is compiled are looped over: the fewer, the faster.
 template <class L>
 Columns columns_of(const rddl_problem& problem, rddl_role role, std::int64_t row_size) {
-    Columns columns{.list = std::vector<Column>(detail::column_count<L>(problem, role)),
+    constexpr bool are_apart = false;
+    Columns columns{.list = std::vector<Column>(detail::column_count(problem, role, are_apart)),
                     .row_size = row_size};
-    detail::lay_out<L>(columns, problem, role);
+    detail::lay_out<L>(columns, problem, role, are_apart);
     return columns;
 }
 template <class L, const rddl_problem& problem, rddl_role role>
 constexpr auto known_columns(std::int64_t row_size) {
-    KnownColumns<detail::column_count<L>(problem, role)> columns{.row_size = row_size};
-    detail::lay_out<L>(columns, problem, role);
+    constexpr bool are_apart =
+        detail::have_own_columns<L>(detail::fluent_count(problem, role), role);
+    KnownColumns<detail::column_count(problem, role, are_apart)> columns{.row_size = row_size};
+    detail::lay_out<L>(columns, problem, role, are_apart);
     return columns;
 }
 
@@ -564,6 +570,16 @@ void merge(Pack<n, R>, const ColumnTable<List>& columns, Mask<n> mask, const std
                 ours[k] = select(mask, theirs[k], ours[k]);
         });
     });
+}
+
+// Each lane gets the values of the first one.
+template <class L>
+void repeat_lane(L, const Columns& columns, std::byte* block) {
+    for (const Column& column : columns.list)
+        with_type<L>(column.scalar, [&]<class T>() {
+            T* const values = detail::values_in<T>(block, column);
+            for (std::int64_t k = 0; k < column.count; ++k) values[k] = T(get_lane(values[k], 0));
+        });
 }
 
 }  // namespace rddl

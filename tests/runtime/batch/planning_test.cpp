@@ -4,8 +4,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
+#include <cstring>
 #include <vector>
 
 namespace tiny {
@@ -119,6 +121,65 @@ TEST(CopyEnvironments, OfOneAreAsSingleCopies) {
                 ASSERT_EQ(many.rewards[i], single.rewards[i]) << time << " " << i;
                 ASSERT_EQ(many.causes[i], single.causes[i]);
                 ASSERT_EQ(many.observations[i].wear, single.observations[i].wear);
+            }
+        }
+    }
+}
+
+// Functions that take many environments at once, whole blocks of them together, do the same with
+// each of them as by itself.
+TEST(ManyEnvironments, AreAsSingleOnes) {
+    constexpr std::int64_t size = 200, begin = 5, count = 190;
+    TinyBatch many(batch_options(size)), single(batch_options(size));
+    for (int time = 0; time < 25; ++time)
+        for (TinyBatch* batch : {&many, &single}) {
+            for (std::int64_t i = 0; i < size; ++i)
+                batch->actions[static_cast<std::size_t>(i)] = action_of(i, time);
+            batch->step();
+        }
+    std::vector<StateRecord> states = blank_states(count);
+    ASSERT_EQ(functions.get_state(many.get(), begin, count, states.data()), RDDL_OK);
+    for (std::int64_t k = 0; k < count; ++k) {
+        StateRecord state = blank_states(1).front();
+        ASSERT_EQ(functions.get_state(single.get(), begin + k, 1, &state), RDDL_OK);
+        ASSERT_EQ(std::memcmp(&state, &states[static_cast<std::size_t>(k)], sizeof state), 0) << k;
+    }
+    std::ranges::reverse(states);
+    std::vector<std::int64_t> steps;
+    std::vector<std::uint64_t> seeds;
+    for (std::int64_t k = 0; k < count; ++k) {
+        steps.push_back(k % 7 == 3 ? problem.horizon : k % 5);
+        seeds.push_back(static_cast<std::uint64_t>(k / 2));
+    }
+    for (const bool with_steps : {true, false}) {
+        const std::int64_t* const given = with_steps ? steps.data() : nullptr;
+        ASSERT_EQ(functions.set_state(many.get(), begin, count, states.data(), given), RDDL_OK);
+        ASSERT_EQ(functions.set_seeds(many.get(), begin, count, seeds.data()), RDDL_OK);
+        for (std::int64_t k = 0; k < count; ++k) {
+            const auto place = static_cast<std::size_t>(k);
+            ASSERT_EQ(functions.set_state(single.get(), begin + k, 1, &states[place],
+                                          with_steps ? &steps[place] : nullptr),
+                      RDDL_OK);
+            ASSERT_EQ(functions.set_seeds(single.get(), begin + k, 1, &seeds[place]), RDDL_OK);
+        }
+        for (int time = 0; time < 12; ++time) {
+            std::vector<std::uint8_t> causes(size), expected(size);
+            functions.get_causes(many.get(), 0, size, causes.data());
+            functions.get_causes(single.get(), 0, size, expected.data());
+            ASSERT_EQ(causes, expected) << time;
+            if (time == 6) {
+                functions.draw_medians(many.get(), begin, count);
+                for (std::int64_t k = 0; k < count; ++k)
+                    functions.draw_medians(single.get(), begin + k, 1);
+            }
+            many.step();
+            single.step();
+            for (std::size_t i = 0; i < size; ++i) {
+                ASSERT_EQ(many.rewards[i], single.rewards[i]) << time << " " << i;
+                ASSERT_EQ(std::memcmp(&many.observations[i], &single.observations[i],
+                                      sizeof(StateRecord)),
+                          0)
+                    << time << " " << i;
             }
         }
     }
