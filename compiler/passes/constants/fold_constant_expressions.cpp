@@ -4,6 +4,7 @@
 #include "ir/rewrite.hpp"
 #include "passes/analyses/constant_values.hpp"
 
+#include <algorithm>
 #include <utility>
 
 namespace rddlc::passes {
@@ -37,15 +38,20 @@ std::vector<std::optional<ir::Value>> known_values(const ir::Program& program) {
 
 }  // namespace
 
+// What is left around constants may be known too, so it goes on as long as it finds something.
 ir::Program fold_constant_expressions(ir::Program program, Report& report) {
-    const std::vector<std::optional<ir::Value>> values = known_values(program);
-    return ir::rewrite(
-        std::move(program),
-        [&](ir::Builder& builder, ir::NodeId id, const ir::Node&) -> std::optional<ir::NodeId> {
-            if (!values[id.index]) return std::nullopt;
-            ++report["expressions evaluated"];
-            return builder.constant(*values[id.index]);
-        });
+    for (;;) {
+        const std::vector<std::optional<ir::Value>> values = known_values(program);
+        if (std::ranges::none_of(values, [](const auto& value) { return value.has_value(); }))
+            return program;
+        program = ir::rewrite(
+            std::move(program),
+            [&](ir::Builder& builder, ir::NodeId id, const ir::Node&) -> std::optional<ir::NodeId> {
+                if (!values[id.index]) return std::nullopt;
+                ++report["expressions evaluated"];
+                return builder.constant(*values[id.index]);
+            });
+    }
 }
 
 }  // namespace rddlc::passes

@@ -127,17 +127,13 @@ class ConstantTabulation {
     std::map<ir::NodeId, Table> tables_;
 };
 
-}  // namespace
+using Tables = std::map<ir::NodeId, ConstantTabulation::Table>;
 
-ir::Program tabulate_constants(ir::Program program, Report& report) {
-    const std::map<ir::NodeId, ConstantTabulation::Table> tables =
-        ConstantTabulation(program).run();
+ir::Program with_tables(ir::Program program, const Tables& tables) {
     std::map<ir::NodeId, ir::BufferId> buffers;
     ir::NewTables new_tables(program);
-    for (const auto& [id, table] : tables) {
+    for (const auto& [id, table] : tables)
         if (!table.buffer.values.is_uniform()) buffers[id] = new_tables.constant(table.buffer);
-        ++report["tables computed"];
-    }
     return ir::rewrite(
         std::move(program),
         [&](ir::Builder& builder, ir::NodeId id, const ir::Node&) -> std::optional<ir::NodeId> {
@@ -149,6 +145,18 @@ ir::Program tabulate_constants(ir::Program program, Report& report) {
             for (ir::VariableId variable : variables) indices.push_back(builder.index(variable));
             return builder.load(buffers.at(id), std::move(indices));
         });
+}
+
+}  // namespace
+
+// Around constants there may be more to compute, so it goes on as long as it finds something.
+ir::Program tabulate_constants(ir::Program program, Report& report) {
+    for (;;) {
+        const Tables tables = ConstantTabulation(program).run();
+        if (tables.empty()) return program;
+        report["tables computed"] += std::ssize(tables);
+        program = with_tables(std::move(program), tables);
+    }
 }
 
 }  // namespace rddlc::passes
