@@ -36,9 +36,10 @@ T_95 = (12.706, 4.303, 3.182, 2.776, 2.571, 2.447, 2.365, 2.306, 2.262)  # quant
 
 
 def configuration_of(problem, kind):
+    """The file for the problem, whose name it has with other capitals now and then, else the default."""
     folder = Path(pyRDDLGym_jax.examples.__file__).parent / "configs"
-    tuned = folder / f"{problem}_{kind}.cfg"
-    return tuned if tuned.exists() else folder / f"default_{kind}.cfg"
+    name = f"{problem}_{kind}.cfg".lower()
+    return next((path for path in folder.iterdir() if path.name.lower() == name), folder / f"default_{kind}.cfg")
 
 
 def evaluated(configuration, arguments):

@@ -38,7 +38,7 @@ std::vector<std::optional<ir::Value>> known_values(const ir::Program& program) {
 
 }  // namespace
 
-// What is left around constants may be known too, so it goes on as long as it finds something.
+// Expressions around the new constants may be known too, so it goes on until it finds none.
 ir::Program fold_constant_expressions(ir::Program program, Report& report) {
     for (;;) {
         const std::vector<std::optional<ir::Value>> values = known_values(program);
