@@ -75,13 +75,13 @@ void narrow_factor(LineBounds& factor, const LineBounds& other, const LineBounds
     narrow(factor, before_rounding(quotient));
 }
 
-// Operands decide a conjunction or disjunction together, or each of them alone.
+// All operands of a conjunction that is true are true. If it is false, and one operand is true, the
+// other one is false. A disjunction is the same with true and false exchanged.
 void narrow_logic(Operator op, LineBounds& a, LineBounds& b, const LineBounds& result) {
-    const LineBounds all = op == Operator::And ? truth : falsehood;
     const auto is_all = op == Operator::And ? is_true : is_false_bool;
     if (!is_known(result)) return;
-    if (is_all(result) || is_all(a)) narrow(b, is_all(result) ? all : result);
-    if (is_all(result) || is_all(b)) narrow(a, is_all(result) ? all : result);
+    if (is_all(result) || is_all(a)) narrow(b, result);
+    if (is_all(result) || is_all(b)) narrow(a, result);
 }
 void narrow_bool_equality(bool are_equal, LineBounds& a, LineBounds& b) {
     if (is_known(a)) narrow(b, are_equal ? a : negated(a));
