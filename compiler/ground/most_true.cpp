@@ -50,14 +50,14 @@ class Finding {
     void bound(ir::NodeId sum, ir::NodeId limit, bool is_below, double rows) {
         const auto range = range_of(limit);
         if (!range || !std::isfinite(range->upper)) return;
-        const double most = is_below ? std::ceil(range->upper) - 1 : std::floor(range->upper);
+        const double most = range->upper;
         std::vector<ir::NodeId> terms;
         collect_terms(sum, terms);
         const auto is_positive = [&](ir::NodeId term) {
             return is_never_negative(term);
         };
         if (most < 0 || !std::ranges::all_of(terms, is_positive)) return;
-        for (const ir::NodeId term : terms) bound_term(term, most, rows);
+        for (const ir::NodeId term : terms) bound_term(term, most, is_below, rows);
     }
 
     // Ints that are so large that they wrap around do not matter here.
@@ -84,20 +84,27 @@ class Finding {
         for (const ir::NodeId operand : apply->operands) collect_terms(operand, terms);
     }
 
-    void bound_term(ir::NodeId term, double most, double rows) {
+    void bound_term(ir::NodeId term, double most, bool is_below, double rows) {
         const auto nest = ir::reduction_nest(program_, term);
         if (!nest || nest->op != Reduction::Sum) return;
         double weight = 1;
         const auto* const load = counted(nest->body, weight);
         if (!load || weight <= 0) return;
         ir::Buffer& buffer = program_.buffers[load->buffer.index];
-        const auto is_object = [&](ir::NodeId index) {
-            return std::holds_alternative<ir::Index>(program_[index].form);
-        };
-        const double bound = std::floor(most / weight) * rows;
-        if (is_of_action(buffer) && std::ranges::all_of(load->indices, is_object) &&
+        const double count = most / weight;
+        const double bound = (is_below ? std::ceil(count) - 1 : std::floor(count)) * rows;
+        if (is_of_action(buffer) && is_all_elements(load->indices) && bound >= 0 &&
             bound < static_cast<double>(buffer.count()))
             lower(buffer, static_cast<std::int64_t>(bound));
+    }
+
+    // Not one column, nor the diagonal.
+    bool is_all_elements(const std::vector<ir::NodeId>& indices) const {
+        const auto is_first_of_variable = [&](const ir::NodeId& index) {
+            return std::holds_alternative<ir::Index>(program_[index].form) &&
+                   std::find(indices.data(), &index, index) == &index;
+        };
+        return std::ranges::all_of(indices, is_first_of_variable);
     }
 
     // The bool that a term counts so many times; null if it is something else.

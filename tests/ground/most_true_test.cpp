@@ -47,6 +47,7 @@ TEST(MostTrue, IsTheLimitOfASum) {
     EXPECT_EQ(most_true(all_go + " + (sum_{?o : obj, ?u : obj} [3 * visit(?o, ?u)]) <= 7.5;"),
               "go:7 visit:2");
     EXPECT_EQ(most_true("n >= 0 ^ " + all_go + " <= MOST;"), "go:4 visit:-");
+    EXPECT_EQ(most_true("(sum_{?o : obj} [0.25 * go(?o)]) < 1.0;"), "go:3 visit:-");
 }
 
 TEST(MostTrue, IsTheSumOfTheLimitsOfRows) {
@@ -57,7 +58,8 @@ TEST(MostTrue, IsTheSumOfTheLimitsOfRows) {
 TEST(MostTrue, IsUnknownWhereTermsMayBeNegativeOrTheLimitMayBeAnything) {
     for (const std::string& condition :
          {all_go + " <= n", all_go + " - " + all_visits + " <= MOST", all_go + " + n <= MOST",
-          all_go + " >= MOST", std::string("(sum_{?o : obj} [go(?o) ^ p(?o)]) <= MOST"),
+          all_go + " >= MOST", std::string("(sum_{?o : obj} [visit(?o, ?o)]) <= MOST"),
+          std::string("(sum_{?o : obj} [go(?o) ^ p(?o)]) <= MOST"),
           "(" + all_go + " <= MOST) | (n > 2)"})
         EXPECT_EQ(most_true(condition + ";"), "go:- visit:-") << condition;
 }

@@ -4,6 +4,7 @@
 #include <vector>
 
 namespace rddlc::passes {
+
 bool begins_with_few_true(const ir::Buffer& buffer, std::int64_t least_per_true) {
     if (buffer.storage != ir::Storage::State || buffer.scalar != ir::Scalar::Bool) return false;
     const std::vector<ir::Value> values = buffer.values.dense();

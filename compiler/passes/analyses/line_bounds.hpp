@@ -4,8 +4,9 @@
 // number of t's size can still be compared with another one. So each end is a line over the
 // parameter, given by its values where the parameter is least and where it is greatest.
 //
-// All rounded values are inside, for reals as doubles: the rules of interval arithmetic (R. Moore,
-// Interval Analysis, 1966) with ends that are moved outwards by more than the rounding errors.
+// All rounded values are inside, for reals as doubles that are finite: the rules of interval
+// arithmetic (R. Moore, Interval Analysis, 1966) with ends that are moved outwards by more than the
+// rounding errors.
 #pragma once
 
 #include <algorithm>
@@ -98,8 +99,11 @@ inline LineBounds multiply(const LineBounds& a, const LineBounds& b) {
             for (std::size_t end = 0; end < 2; ++end) {
                 const double product = (*x)[end] * (*y)[end];
                 if (!std::isfinite(product) || !std::isfinite(bend)) return everything();
-                result.low[end] = std::min(result.low[end], product - std::max(bend, 0.0));
-                result.high[end] = std::max(result.high[end], product - std::min(bend, 0.0));
+                // The errors of both are larger than those of their difference if that is small.
+                result.low[end] = std::min(
+                    result.low[end], detail::lower(product) - detail::upper(std::max(bend, 0.0)));
+                result.high[end] = std::max(
+                    result.high[end], detail::upper(product) - detail::lower(std::min(bend, 0.0)));
             }
         }
     return detail::outward(result);
@@ -128,6 +132,10 @@ inline LineBounds before_rounding(const LineBounds& a) {
     return detail::outward(a);
 }
 
+inline bool is_finite(const LineBounds& a) {
+    return std::isfinite(a.low[0]) && std::isfinite(a.low[1]) && std::isfinite(a.high[0]) &&
+           std::isfinite(a.high[1]);
+}
 // For all parameters.
 inline bool is_below(const LineBounds& a, const LineBounds& b) {
     return a.high[0] < b.low[0] && a.high[1] < b.low[1];

@@ -13,8 +13,7 @@ namespace {
 using Form = ObjectCondition::Form;
 using Term = ObjectCondition::Term;
 
-// Within these, nothing that is computed overflows.
-constexpr double greatest_constant = 1e30;
+// Bounds of longer products are too wide to prove anything.
 constexpr int most_factors = 8;
 
 struct Making {
@@ -59,7 +58,7 @@ struct Making {
                 term.constants.push_back(*is ? 1 : 0);
             else
                 return std::nullopt;
-            if (!(std::fabs(term.constants.back()) <= greatest_constant)) return std::nullopt;
+            if (!std::isfinite(term.constants.back())) return std::nullopt;
         }
         return term;
     }

@@ -75,13 +75,13 @@ void narrow_factor(LineBounds& factor, const LineBounds& other, const LineBounds
     narrow(factor, before_rounding(quotient));
 }
 
-// Operands decide a conjunction or disjunction together, or each of them alone.
+// All operands of a conjunction that is true are true. If it is false, and one operand is true, the
+// other one is false. A disjunction is the same with true and false exchanged.
 void narrow_logic(Operator op, LineBounds& a, LineBounds& b, const LineBounds& result) {
-    const LineBounds all = op == Operator::And ? truth : falsehood;
     const auto is_all = op == Operator::And ? is_true : is_false_bool;
     if (!is_known(result)) return;
-    if (is_all(result) || is_all(a)) narrow(b, is_all(result) ? all : result);
-    if (is_all(result) || is_all(b)) narrow(a, is_all(result) ? all : result);
+    if (is_all(result) || is_all(a)) narrow(b, result);
+    if (is_all(result) || is_all(b)) narrow(a, result);
 }
 void narrow_bool_equality(bool are_equal, LineBounds& a, LineBounds& b) {
     if (is_known(a)) narrow(b, are_equal ? a : negated(a));
@@ -93,15 +93,17 @@ class Refutation {
     explicit Refutation(const ObjectCondition& condition) : condition_(condition) {}
 
     bool is_false(std::int64_t object, std::span<const LineBounds> numbers) const {
-        return is_false_bool(evaluated(object, numbers).back());
+        const std::optional<Values> values = evaluated(object, numbers);
+        return values && is_false_bool(values->back());
     }
 
     bool is_refuted(std::int64_t object, std::span<const LineBounds> numbers) const {
-        Values values = evaluated(object, numbers);
-        if (is_false_bool(values.back())) return true;
-        const Terms open = open_terms(values);
-        values.back() = truth;
-        return leads_to_contradiction(open, std::move(values), 0);
+        std::optional<Values> values = evaluated(object, numbers);
+        if (!values) return false;
+        if (is_false_bool(values->back())) return true;
+        const Terms open = open_terms(*values);
+        values->back() = truth;
+        return leads_to_contradiction(open, *std::move(values), 0);
     }
 
   private:
@@ -110,7 +112,10 @@ class Refutation {
     using Values = std::vector<LineBounds>;  // of all terms
     using Terms = std::vector<std::size_t>;
 
-    Values evaluated(std::int64_t object, std::span<const LineBounds> numbers) const {
+    // Nothing if a value may overflow: a difference of infinities is not a number, of which bounds
+    // say nothing.
+    std::optional<Values> evaluated(std::int64_t object,
+                                    std::span<const LineBounds> numbers) const {
         Values values(condition_.terms.size());
         for (std::size_t i = 0; i < condition_.terms.size(); ++i) {
             const Term& term = condition_.terms[i];
@@ -122,6 +127,7 @@ class Refutation {
                                                               : static_cast<std::size_t>(object)]);
             else
                 values[i] = value(term, values);
+            if (!is_finite(values[i])) return std::nullopt;
         }
         return values;
     }

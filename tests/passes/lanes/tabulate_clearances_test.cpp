@@ -159,6 +159,19 @@ TEST(TabulateClearances, NeedsNoMoves) {
     EXPECT_GT(clearance_at(program, clearances, {2.0, 1.9}), 0);
 }
 
+// A difference of infinities is not a number, for which no comparison but `~=` is true.
+TEST(TabulateClearances, LeavesWhatMayOverflow) {
+    std::string factors;
+    for (int k = 0; k < 11; ++k) factors += " * 1000000000000000000000000000000.0";
+    const std::string difference =
+        "((x - X1(?w) + dx)" + factors + " - (y - Y1(?w))" + factors + ")";
+    passes::Report report;
+    with_clearances(with_walls("~(" + difference + " < 5.0) ^ ~(" + difference + " > 5.0) ^ " +
+                               difference + " ~= 5.0"),
+                    report);
+    EXPECT_EQ(report["loops over the objects near a place"], 0);
+}
+
 TEST(TabulateClearances, LeavesWhatIsCheapOrNotProved) {
     const std::string crosses_or = std::string(crosses) + " | ";
     for (const std::string& hit :
