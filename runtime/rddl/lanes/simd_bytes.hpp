@@ -106,9 +106,11 @@ template <std::int64_t size, class V>
 [[gnu::always_inline]] inline V chosen_bytes(const void* table, V bytes_of_places) {
     constexpr __mmask64 all = ~std::uint64_t{0};
     const auto places = reinterpret<__m512i>(bytes_of_places);
+    // Loops over many objects store full registers as a whole (store_bytes).
     const auto part = [&](int first) __attribute__((always_inline)) {
         const int rest = static_cast<int>(size) - first;
-        return load_many_parts(static_cast<const char*>(table) + first, rest < 64 ? rest : 64);
+        const char* const from = static_cast<const char*>(table) + first;
+        return rest < 64 ? load_many_parts(from, rest) : _mm512_loadu_si512(from);
     };
     const auto chosen = [&]<int first, int rest>() __attribute__((always_inline)) {
         if constexpr (rest <= 64)
