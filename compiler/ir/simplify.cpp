@@ -1,8 +1,9 @@
 #include "ir/simplify.hpp"
 
+#include "ir/rewrite.hpp"
+
 #include <algorithm>
 #include <iterator>
-#include <ranges>
 #include <utility>
 #include <vector>
 
@@ -202,9 +203,7 @@ class Simplifier {
         auto kept = not_absorbed(*first, kept_last, dual);
         if (kept.size() + kept_last.size() == first->size() + last->size()) return std::nullopt;
         std::ranges::copy(kept_last, std::back_inserter(kept));
-        NodeId all = kept.front();
-        for (const NodeId part : kept | std::views::drop(1)) all = builder_.apply(op_, {all, part});
-        return all;
+        return joined(builder_, op_, kept);
     }
     // The parts that none of the others decides.
     std::vector<NodeId> not_absorbed(const std::vector<NodeId>& parts,

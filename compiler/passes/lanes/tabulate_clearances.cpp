@@ -133,10 +133,13 @@ class Clearing {
         }
     }
 
+    void bound_moves(double greatest) {
+        for (const std::size_t move : split_.moves) bounds_[move] = between(-greatest, greatest);
+    }
+
     // Leaves out objects that matter nowhere in the square.
     void find_objects() {
-        const double greatest = split_.unit * static_cast<double>(levels[highest_level]);
-        for (const std::size_t move : split_.moves) bounds_[move] = between(-greatest, greatest);
+        bound_moves(split_.unit * static_cast<double>(levels[highest_level]));
         objects_.clear();
         for (std::int64_t object = 0; object < count_; ++object)
             if (!is_false_within(condition_, object, bounds_)) objects_.push_back(object);
@@ -166,7 +169,7 @@ class Clearing {
         std::int64_t& known = clear_at_[static_cast<std::size_t>(object)];
         if (units <= known) return true;
         const double greatest = static_cast<double>(units) * split_.unit;
-        for (const std::size_t move : split_.moves) bounds_[move] = between(-greatest, greatest);
+        bound_moves(greatest);
         const bool is_clear = is_false_within(condition_, object, bounds_) ||
                               std::ranges::any_of(split_.moves, [&](std::size_t move) {
                                   return is_clear_by_size_of(move, object, greatest);

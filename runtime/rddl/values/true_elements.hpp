@@ -94,8 +94,9 @@ RDDL_INLINE T sum_over_true(Context<L>& context, const std::array<Mask<width>, n
     return total;
 }
 
-// The true ones of a row, to be visited: the first one (n: there is none) and the bits of the
-// others in words, or in packs the row as it is. Mostly there are no others.
+// Holds the true elements of a row for a visit: the index of the first one, or n where all are
+// false, and the bits of the others in words. Mostly there are no others. Packs take the row as it
+// is.
 template <std::size_t n>
 struct TrueElements {
     Index first = static_cast<Index>(n);

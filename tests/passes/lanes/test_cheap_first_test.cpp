@@ -40,8 +40,8 @@ TEST(TestCheapFirst, KeepsWhatMayFault) {
     EXPECT_EQ(x.before, x.after);
 }
 
-// One of 20 machines is mended at most, or as many as there are.
-std::string mended(const std::string& cpf, std::int64_t most) {
+// The next value of `up`, where an action that is allowed sets at most `most` of its bools.
+std::string with_repairs(const std::string& cpf, std::int64_t most) {
     ir::Program program =
         grounded_with_many({.pvariables = "up(obj) : { state-fluent, bool, default = true };\n"
                                           "mend(obj) : { action-fluent, bool, default = false };",
@@ -56,10 +56,10 @@ std::string mended(const std::string& cpf, std::int64_t most) {
 
 TEST(TestCheapFirst, DrawsWhereAnActionOfFewTrueBoolsChooses) {
     const std::string cpf = "up(?o) | (Bernoulli(0.9) ^ mend(?o))";
-    EXPECT_EQ(mended(cpf, 1),
+    EXPECT_EQ(with_repairs(cpf, 1),
               "state.up[o] || select(action.mend[o], sample bernoulli@0[o](0.9), false)");
-    EXPECT_EQ(mended(cpf, 20), "state.up[o] || sample bernoulli@0[o](0.9) && action.mend[o]");
-    EXPECT_EQ(mended("up(?o) ^ mend(?o)", 1), "state.up[o] && action.mend[o]");
+    EXPECT_EQ(with_repairs(cpf, 20), "state.up[o] || sample bernoulli@0[o](0.9) && action.mend[o]");
+    EXPECT_EQ(with_repairs("up(?o) ^ mend(?o)", 1), "state.up[o] && action.mend[o]");
 }
 
 }  // namespace
