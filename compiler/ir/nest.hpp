@@ -18,6 +18,14 @@ auto only_statement(SomeBlock& block) {
     return block.size() == 1 ? std::get_if<Form>(&block.front().form) : Found{};
 }
 
+// Calls body(loop, span of its definition) for the outermost loops of the step.
+template <class Body>
+void for_each_loop(Program& program, Body&& body) {
+    for (Definition& definition : program.step)
+        for (Statement& statement : definition.body)
+            if (auto* loop = std::get_if<Loop>(&statement.form)) body(*loop, definition.span);
+}
+
 struct Nest {
     std::vector<VariableId> variables;  // outermost first
     const Block* body;                  // of the innermost loop

@@ -205,10 +205,7 @@ class Tabulation {
         : program_(std::move(program)), report_(report), builder_(program_) {}
 
     ir::Program run() && {
-        for (ir::Definition& definition : program_.step)
-            for (ir::Statement& statement : definition.body)
-                if (auto* loop = std::get_if<ir::Loop>(&statement.form))
-                    change(*loop, definition.span);
+        ir::for_each_loop(program_, [&](ir::Loop& loop, Span span) { change(loop, span); });
         return std::move(program_);
     }
 

@@ -23,9 +23,7 @@ class Choosing {
         : program_(std::move(program)), report_(report), builder_(program_) {}
 
     ir::Program run() && {
-        for (ir::Definition& definition : program_.step)
-            for (ir::Statement& statement : definition.body)
-                if (auto* loop = std::get_if<ir::Loop>(&statement.form)) change(*loop);
+        ir::for_each_loop(program_, [&](ir::Loop& loop, Span) { change(loop); });
         return ir::collect_garbage(std::move(program_));
     }
 
