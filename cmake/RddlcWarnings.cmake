@@ -17,14 +17,15 @@ endif()
 add_library(rddlc_cold INTERFACE)
 target_compile_options(rddlc_cold INTERFACE $<$<CONFIG:Release,RelWithDebInfo>:-Og>)
 if(RDDLC_SANITIZE)
-  # No -Werror: g++ warns of things that are not so in instrumented code (GCC bug 105616).
   # A null pointer ends the program without a test at each use, which would take a third of the build.
   # Tests of each pointer's alignment and overflow take another third. The address sanitizer finds where a
   # pointer out of range is used, and runtime.sanitized_interface tests the alignment of records.
   add_compile_options(-fsanitize=address,undefined -fno-sanitize=null,vptr,alignment,pointer-overflow
                       -fno-sanitize-recover=all -fno-omit-frame-pointer)
   add_link_options(-fsanitize=address,undefined)
-elseif(RDDLC_WARNINGS_AS_ERRORS)
+endif()
+# g++ warns of things that are not so in instrumented code (GCC bug 105616).
+if(RDDLC_WARNINGS_AS_ERRORS AND NOT (RDDLC_SANITIZE AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU"))
   target_compile_options(rddlc_options INTERFACE -Werror)
 endif()
 if(RDDLC_FUZZ)

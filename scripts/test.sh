@@ -42,9 +42,10 @@ cmake --build build
 time_of build
 
 step "3/4 build with sanitizers"
-cmake -S . -B build/sanitize -G Ninja --log-level=WARNING -DRDDLC_BUILD_TESTS=ON \
-    -DRDDLC_SANITIZE=ON -DCMAKE_BUILD_TYPE=None -DCMAKE_CXX_FLAGS="-Og -g1"  # builds in 4:41, -O1 in 6:16
-cmake --build build/sanitize --target sanitized_tests
+# clang++ takes two thirds of the time of g++ here, and shows that it takes our sources without a warning.
+cmake -S . -B build/sanitize-clang -G Ninja --log-level=WARNING -DRDDLC_BUILD_TESTS=ON -DRDDLC_WARNINGS_AS_ERRORS=ON \
+    -DRDDLC_SANITIZE=ON -DCMAKE_CXX_COMPILER=clang++ -DCMAKE_BUILD_TYPE=None -DCMAKE_CXX_FLAGS="-O0 -g1"
+cmake --build build/sanitize-clang --target sanitized_tests
 time_of "sanitized build"
 
 step "4/4 tests"
@@ -66,7 +67,7 @@ show_failures() {
             tail -n 60
     done
 }
-rm -f build/Testing/Temporary/LastTestsFailed.log build/sanitize/Testing/Temporary/LastTestsFailed.log
+rm -f build/Testing/Temporary/LastTestsFailed.log build/sanitize-clang/Testing/Temporary/LastTestsFailed.log
 # Both sets run, even if the first fails; the exit status reports either failure.
 status=0
 ctest --test-dir build --parallel "$jobs" --output-on-failure ${once[@]+"${once[@]}"} "$@" || status=1
@@ -74,11 +75,11 @@ time_of tests
 # The frames of sanitized code are several times as large: what just fits 8 MB of stack needs more.
 (
     ulimit -S -s 65536
-    ctest --test-dir build/sanitize --label-regex sanitize --parallel "$jobs" --output-on-failure "$@"
+    ctest --test-dir build/sanitize-clang --label-regex sanitize --parallel "$jobs" --output-on-failure "$@"
 ) || status=1
 time_of "sanitized tests"
 show_failures build
-show_failures build/sanitize
+show_failures build/sanitize-clang
 echo "took: $times"
 [ "$status" -eq 0 ] || echo "error: some tests failed" >&2
 exit "$status"

@@ -54,7 +54,7 @@ TEST(OutlineTest, ABinderReachesAsFarAsTheGrammarSays) {
         "}";
     const Outline outline = outline_of(text);
     ASSERT_EQ(outline.bindings.size(), 2u);
-    EXPECT_EQ(text.substr(outline.bindings[0].scope.end - 4, 4), ") + 1" + 1);
+    EXPECT_EQ(text.substr(outline.bindings[0].scope.end - 4, 4), " + 1");
     std::size_t unbound = 0;
     for (const Occurrence& each : outline.occurrences)
         unbound += each.meaning == Meaning::Variable && each.binding == outline.bindings.size();

@@ -233,8 +233,8 @@ class Visiting {
         own.first = object;
         factors.erase(few);
         own.factors = std::move(factors);
-        std::ranges::stable_partition(own.factors,
-                                      [&](ir::NodeId each) { return !reads_action(each); });
+        std::stable_partition(own.factors.begin(), own.factors.end(),
+                              [&](ir::NodeId each) { return !reads_action(each); });
         return own;
     }
     bool is_index_of(ir::NodeId id, ir::VariableId variable) const {
