@@ -188,8 +188,9 @@ void Cem::record_policy(const DecisionPoint& point, BudgetMeter& meter) {
 
 // New streams, the same for all of so many plans: what differs is theirs.
 void Cem::draw_streams(RandomStream& stream, std::size_t plans) {
-    for (std::size_t k = 0; k < lanes_; ++k)
-        streams_[k] = k % plans == 0 ? stream.bits() : streams_[k - 1];
+    for (std::size_t begin = 0; begin < lanes_; begin += plans)
+        std::fill_n(streams_.begin() + static_cast<std::ptrdiff_t>(begin),
+                    std::min(plans, lanes_ - begin), stream.bits());
 }
 
 // The plans once, and copies of these for their other draws of luck.
@@ -241,38 +242,46 @@ void Cem::rank() {
     sort_best();
 }
 
-// As far as the order counts: mppi asks for all of it, the others for the best and the middle.
+// As far as the order counts: mppi asks for all of it, the others for the elites, the best first.
 void Cem::sort_best() {
-    const auto at = [&](std::size_t place) {
-        return ranked_.begin() + static_cast<std::ptrdiff_t>(std::min(place, population_));
+    const auto is_better = [](const Ranked& a, const Ranked& b) {
+        return a.value > b.value || (a.value == b.value && a.plan < b.plan);
     };
     ranked_.clear();
-    for (std::size_t c = 0; c < population_; ++c) ranked_.emplace_back(-values_[c], c);
-    const std::size_t middle = options_.weights == Weights::Mppi ? 0 : population_ / 2;
+    for (std::size_t c = 0; c < population_; ++c) ranked_.push_back({values_[c], c});
     const std::size_t wanted =
-        std::max({elites(), static_cast<std::size_t>(options_.kept), most_compared});
-    std::ranges::nth_element(ranked_, at(middle));
-    std::ranges::partial_sort(ranked_.begin(), at(std::min(wanted, middle)), at(middle));
-    if (wanted > middle) std::ranges::sort(at(middle), ranked_.end());
-    for (std::size_t k = 0; k < population_; ++k) order_[k] = ranked_[k].second;
+        options_.weights == Weights::Mppi
+            ? population_
+            : std::max({elites(), static_cast<std::size_t>(options_.kept), most_compared});
+    const auto end = ranked_.begin() + static_cast<std::ptrdiff_t>(std::min(wanted, population_));
+    if (end < ranked_.end()) std::nth_element(ranked_.begin(), end, ranked_.end(), is_better);
+    std::sort(ranked_.begin(), end, is_better);
+    for (std::size_t k = 0; k < population_; ++k) order_[k] = ranked_[k].plan;
 }
 
 std::size_t Cem::elites() const {
     return static_cast<std::size_t>(std::ceil(options_.elites * static_cast<double>(population_)));
 }
 
-// Toward the elites, of which each is better than the middle of the population: where most are
+// Whether at most half of the population is as good.
+bool Cem::is_above_median(double value) const {
+    const auto as_good = std::ranges::count_if(values_, [=](double v) { return v >= value; });
+    return static_cast<std::size_t>(as_good) <= population_ / 2;
+}
+
+// Toward the elites, of which each is better than the median of the population: where most are
 // alike, nothing is to be learned from those.
 void Cem::refit(Memory& memory) {
-    const double best = values_[order_.front()], median = values_[order_[population_ / 2]];
-    if (!(best > median)) return;
+    const double best = values_[order_.front()];
+    if (!is_above_median(best)) return;
     fitted_.clear();
     weights_.clear();
     if (options_.weights == Weights::Elites) {
-        for (std::size_t k = 0; k < elites() && values_[order_[k]] > median; ++k) {
-            fitted_.push_back(order_[k]);
-            weights_.push_back(1);
-        }
+        const auto end = std::partition_point(
+            order_.begin(), order_.begin() + static_cast<std::ptrdiff_t>(elites()),
+            [this](std::size_t plan) { return is_above_median(values_[plan]); });
+        fitted_.assign(order_.begin(), end);
+        weights_.assign(fitted_.size(), 1);
     } else {
         const auto finite =
             std::ranges::count_if(values_, [](double v) { return std::isfinite(v); });

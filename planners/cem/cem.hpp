@@ -50,6 +50,10 @@ class Cem : public Planner {
         // Populations, one after the other, of which nothing was better than doing nothing.
         std::int64_t fruitless = 0;
     };
+    struct Ranked {
+        double value;
+        std::size_t plan;
+    };
     struct Choice {
         std::size_t plan;
         double value, error;
@@ -74,6 +78,7 @@ class Cem : public Planner {
     void rank();
     void sort_best();
     std::size_t elites() const;
+    bool is_above_median(double value) const;
     void rank_kept(const Memory& memory);
     void refit(Memory& memory);
     void keep_best(Memory& memory);
@@ -121,8 +126,8 @@ class Cem : public Planner {
     std::vector<Origin> origins_;
     std::vector<double> values_, errors_;
     double noop_value_ = 0;
-    std::vector<std::size_t> order_;                      // the best first
-    std::vector<std::pair<double, std::size_t>> ranked_;  // a value's negative, and its plan
+    std::vector<std::size_t> order_;  // the best first
+    std::vector<Ranked> ranked_;
     std::vector<std::byte> firsts_;  // action records of each plan's first step
     // The lanes.
     std::vector<std::uint64_t> streams_;
