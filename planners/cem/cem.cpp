@@ -30,20 +30,18 @@ std::size_t population_of(const PlannerContext& context, const CemOptions& optio
     const std::int64_t memory = NearSearch::rest(near_part, context.memory_limit);
     std::int64_t population =
         std::min<std::int64_t>(options.population, std::max<std::int64_t>(1, memory / 4 / each));
-    if (options.budget.steps) {
+    if (const auto steps = NearSearch::rest(near_part, options.budget.steps)) {
         const std::int64_t row = options.horizon.value_or(first_horizon) * lanes;
-        population = std::min(population,
-                              std::max(least, *options.budget.steps / (least_populations * row)));
-        const std::int64_t steps = NearSearch::rest(near_part, *options.budget.steps);
-        population = std::min(population, std::max<std::int64_t>(1, steps / lanes));
+        population = std::min(population, std::max(least, *steps / (least_populations * row)));
+        population = std::min(population, std::max<std::int64_t>(1, *steps / lanes));
     }
     return static_cast<std::size_t>(population);
 }
 
-// Fewer draws of stream where a budget has no room for them.
-std::size_t affordable(std::size_t scenarios, const Budget& budget) {
-    if (!budget.steps) return scenarios;
-    return std::clamp<std::size_t>(static_cast<std::size_t>(*budget.steps) / 16, 1, scenarios);
+// Fewer draws of luck where a decision has too few steps for them.
+std::size_t affordable(std::size_t scenarios, std::optional<std::int64_t> steps) {
+    if (!steps) return scenarios;
+    return std::clamp<std::size_t>(static_cast<std::size_t>(*steps) / 16, 1, scenarios);
 }
 
 }  // namespace
@@ -55,8 +53,9 @@ Cem::Cem(const PlannerContext& context, const CemOptions& options)
       space_(solvers::action_space(simulator_)),
       near_part_(NearSearch::part_of(options, space_)),
       memory_limit_(NearSearch::rest(near_part_, context.memory_limit)),
+      steps_limit_(NearSearch::rest(near_part_, options.budget.steps)),
       records_(simulator_),
-      scenarios_(affordable(scenarios_of(*simulator_.problem, options), options.budget)),
+      scenarios_(affordable(scenarios_of(*simulator_.problem, options), steps_limit_)),
       lanes_(0),
       futures_(simulator_,
                static_cast<std::int64_t>(scenarios_ *

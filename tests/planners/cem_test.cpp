@@ -1,4 +1,5 @@
 #include "planners/cem/plan_distribution.hpp"
+#include "planners/simulation/budget.hpp"
 #include "planning.hpp"
 #include "solvers/spaces/actions.hpp"
 
@@ -93,6 +94,30 @@ TEST(Cem, LooksNear) {
     EXPECT_FALSE(has_near(played("", 1)));  // 9 actions
     EXPECT_EQ(plan.returns(), played(",near=0.5", 2).returns());
     for (const auto& [place, explanation] : plan.explanation) EXPECT_LE(explanation.steps, 2000);
+}
+
+// Four populations, and a comparison that takes as many steps as one, fit into what is left.
+TEST(Cem, SizesPopulationsByWhatNearPlansLeave) {
+    const auto populations = [](const std::string& options) {
+        return run(network(), "plan:cem,scenarios=1," + options).thought(0, 0).iterations;
+    };
+    const std::int64_t near = populations("near=0,horizon=2,steps=8000");
+    EXPECT_EQ(populations("near=0.5,horizon=40,steps=16000"), near + 4);
+}
+
+TEST(Budget, HasShares) {
+    const Budget none = share_of(Budget{}, 0.5);
+    EXPECT_EQ(none.seconds, default_seconds / 2);
+    EXPECT_FALSE(none.steps || none.iterations);
+    const Budget quarter = share_of(Budget{.seconds = {}, .steps = 1000, .iterations = 3}, 0.25);
+    EXPECT_FALSE(quarter.seconds);
+    EXPECT_EQ(quarter.steps, 250);
+    EXPECT_EQ(quarter.iterations, 1);
+    // Of what is left.
+    EXPECT_EQ(
+        BudgetMeter(Budget{.seconds = {}, .steps = 1000, .iterations = {}}, nullptr, 0.25, 200)
+            .steps_left(),
+        200);
 }
 
 // That holds for each budget, for memory, and for few steps where the user asks for it.
