@@ -23,7 +23,7 @@ class NearSearch {
     // none, also where that would be less than one step or one iteration.
     static double part_of(const CemOptions& options, const solvers::ActionSpace& space);
 
-    // What remains of the whole for all other plans.
+    // The rest of the whole, for all other plans.
     static std::int64_t rest(double part, std::int64_t whole) {
         return whole - share_of(whole, part);
     }

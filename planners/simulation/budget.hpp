@@ -22,7 +22,7 @@ inline constexpr double default_seconds = 0.1;
 inline std::int64_t share_of(std::int64_t whole, double share) {
     return static_cast<std::int64_t>(share * static_cast<double>(whole));
 }
-// Of each limit, the default one included; at least one iteration.
+// A part of each limit, the default one included; at least one iteration.
 inline Budget share_of(Budget budget, double share) {
     if (!budget.seconds && !budget.steps && !budget.iterations) budget.seconds = default_seconds;
     if (share == 1) return budget;

@@ -75,8 +75,11 @@ void Futures::step(const std::byte* actions) {
 bool Futures::take_plain_step() {
     if (made_ + 1 >= next_limit_) return false;
     const std::size_t lanes = returns_.size();
-    unsigned ends = 0;
-    for (std::size_t k = 0; k < lanes; ++k) ends |= running_[k] ? unsigned{causes_[k]} : 0;
+    std::uint8_t ends = 0;
+    const std::uint8_t *const causes = causes_.data(), *const running = running_.data();
+    for (std::size_t k = 0; k < lanes; ++k)  // masks, since bytes are multiplied slowly
+        ends =
+            static_cast<std::uint8_t>(ends | (causes[k] & static_cast<std::uint8_t>(-running[k])));
     if (ends != RDDL_RUNNING) return false;
     // The batch reports rewards of 0 for those that have ended, but not for those that limits
     // ended.

@@ -101,8 +101,8 @@ TEST(Cem, SizesPopulationsByWhatNearPlansLeave) {
     const auto populations = [](const std::string& options) {
         return run(network(), "plan:cem,scenarios=1," + options).thought(0, 0).iterations;
     };
-    const std::int64_t near = populations("near=0,horizon=2,steps=8000");
-    EXPECT_EQ(populations("near=0.5,horizon=40,steps=16000"), near + 4);
+    const std::int64_t near = populations("near=0,horizon=2,steps=800");
+    EXPECT_EQ(populations("near=0.5,horizon=4,steps=1600"), near + 4);
 }
 
 TEST(Budget, HasShares) {
@@ -113,7 +113,7 @@ TEST(Budget, HasShares) {
     EXPECT_FALSE(quarter.seconds);
     EXPECT_EQ(quarter.steps, 250);
     EXPECT_EQ(quarter.iterations, 1);
-    // Of what is left.
+    // A share is that of the steps which are left.
     EXPECT_EQ(
         BudgetMeter(Budget{.seconds = {}, .steps = 1000, .iterations = {}}, nullptr, 0.25, 200)
             .steps_left(),
