@@ -380,19 +380,23 @@ void Cem::decide(const DecisionPoint& point, std::byte* action, Explanation* exp
         explanation->steps = meter.steps();
         note_candidates(*explanation, chosen);
     }
-    move_on(memory);
+    move_on(memory, point.left);
 }
 
-// A step is made: what was found for the steps after it is where the next decision begins.
-void Cem::move_on(Memory& memory) {
+// A step is made: what was found for the steps after it is where the next decision begins. Plans
+// get no longer than what is left of the episode.
+void Cem::move_on(Memory& memory, std::int64_t left) {
+    const std::int64_t before = memory.horizon;
+    memory.horizon = std::clamp<std::int64_t>(left - 1, 1, before);
     memory.distribution.shift();
+    memory.distribution.shorten(memory.horizon);
     for (std::size_t k = 0; k < memory.kept_count; ++k) {
         Plan& plan = memory.kept[k];
         std::shift_left(plan.numbers.begin(), plan.numbers.end(),
                         static_cast<std::ptrdiff_t>(default_numbers_.size()));
         std::shift_left(plan.indices.begin(), plan.indices.end(),
                         static_cast<std::ptrdiff_t>(default_indices_.size()));
-        end_by_noop(plan, memory.horizon - 1, memory.horizon);
+        end_by_noop(plan, before - 1, memory.horizon);
     }
 }
 

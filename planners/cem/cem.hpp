@@ -96,7 +96,7 @@ class Cem : public Planner {
                    BudgetMeter& meter);
     void note_candidates(Explanation& explanation, const Choice& chosen) const;
     const std::byte* first_action(std::size_t plan) const;
-    void move_on(Memory& memory);
+    void move_on(Memory& memory, std::int64_t left);
 
     const rddl_simulator& simulator_;
     CemOptions options_;

@@ -212,6 +212,15 @@ TEST(Plans, AreFitted) {
         if (space.max_sub_actions == 0) {
             EXPECT_EQ(middle.indices, drawn.indices);
         }
+        // Fewer steps are the first ones.
+        distribution.shorten(3);
+        EXPECT_EQ(distribution.steps(), 3);
+        Plan first = drawn;
+        distribution.middle(first);
+        for (std::size_t k = 0; k < static_cast<std::size_t>(3 * space.real_count()); ++k)
+            EXPECT_EQ(first.numbers[k], middle.numbers[k]);
+        for (std::size_t k = 0; k < static_cast<std::size_t>(3 * space.index_count()); ++k)
+            EXPECT_EQ(first.indices[k], middle.indices[k]);
     }
 }
 
