@@ -1,12 +1,13 @@
-"""The measured figures in docs/benchmarks.md, docs/lanes.md and docs/results: each benchmark owns its sections, between
-markers."""
+"""The measured figures in docs/benchmarks.md, docs/lanes.md, docs/planning.md and docs/results: each benchmark owns its sections,
+between markers."""
 
 import os
 import platform
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[1]
-DOCUMENTS = [ROOT / "docs" / page for page in ("benchmarks.md", "lanes.md", "results/benchmarks.md", "results/planning.md")]
+DOCUMENTS = [ROOT / "docs" / page for page in ("benchmarks.md", "lanes.md", "planning.md", "results/benchmarks.md",
+                                                "results/planning.md")]
 
 
 def machine_text() -> str:

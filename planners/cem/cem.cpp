@@ -1,12 +1,6 @@
 #include "planners/cem/cem.hpp"
 
-#include "planners/simulation/mean_and_error.hpp"
-
 #include <algorithm>
-#include <cmath>
-#include <limits>
-#include <numeric>
-#include <utility>
 
 namespace rddlc::planners {
 
@@ -30,20 +24,18 @@ std::size_t population_of(const PlannerContext& context, const CemOptions& optio
     const std::int64_t memory = NearSearch::rest(near_part, context.memory_limit);
     std::int64_t population =
         std::min<std::int64_t>(options.population, std::max<std::int64_t>(1, memory / 4 / each));
-    if (options.budget.steps) {
+    if (const auto steps = NearSearch::rest(near_part, options.budget.steps)) {
         const std::int64_t row = options.horizon.value_or(first_horizon) * lanes;
-        population = std::min(population,
-                              std::max(least, *options.budget.steps / (least_populations * row)));
-        const std::int64_t steps = NearSearch::rest(near_part, *options.budget.steps);
-        population = std::min(population, std::max<std::int64_t>(1, steps / lanes));
+        population = std::min(population, std::max(least, *steps / (least_populations * row)));
+        population = std::min(population, std::max<std::int64_t>(1, *steps / lanes));
     }
     return static_cast<std::size_t>(population);
 }
 
-// Fewer draws of stream where a budget has no room for them.
-std::size_t affordable(std::size_t scenarios, const Budget& budget) {
-    if (!budget.steps) return scenarios;
-    return std::clamp<std::size_t>(static_cast<std::size_t>(*budget.steps) / 16, 1, scenarios);
+// Fewer draws of luck where a decision has too few steps for them.
+std::size_t affordable(std::size_t scenarios, std::optional<std::int64_t> steps) {
+    if (!steps) return scenarios;
+    return std::clamp<std::size_t>(static_cast<std::size_t>(*steps) / 16, 1, scenarios);
 }
 
 }  // namespace
@@ -55,8 +47,9 @@ Cem::Cem(const PlannerContext& context, const CemOptions& options)
       space_(solvers::action_space(simulator_)),
       near_part_(NearSearch::part_of(options, space_)),
       memory_limit_(NearSearch::rest(near_part_, context.memory_limit)),
+      steps_limit_(NearSearch::rest(near_part_, options.budget.steps)),
       records_(simulator_),
-      scenarios_(affordable(scenarios_of(*simulator_.problem, options), options.budget)),
+      scenarios_(affordable(scenarios_of(*simulator_.problem, options), steps_limit_)),
       lanes_(0),
       futures_(simulator_,
                static_cast<std::int64_t>(scenarios_ *
@@ -188,8 +181,9 @@ void Cem::record_policy(const DecisionPoint& point, BudgetMeter& meter) {
 
 // New streams, the same for all of so many plans: what differs is theirs.
 void Cem::draw_streams(RandomStream& stream, std::size_t plans) {
-    for (std::size_t k = 0; k < lanes_; ++k)
-        streams_[k] = k % plans == 0 ? stream.bits() : streams_[k - 1];
+    for (std::size_t begin = 0; begin < lanes_; begin += plans)
+        std::fill_n(streams_.begin() + static_cast<std::ptrdiff_t>(begin),
+                    std::min(plans, lanes_ - begin), stream.bits());
 }
 
 // The plans once, and copies of these for their other draws of luck.
@@ -227,88 +221,6 @@ void Cem::note_first_actions(std::span<const std::uint32_t> plans) {
     for (std::size_t k = 0; k < count; ++k)
         std::copy_n(actions_.data() + k * size, size,
                     firsts_.data() + (plans.empty() ? k : plans[k]) * size);
-}
-
-void Cem::rank() {
-    noop_value_ = -std::numeric_limits<double>::infinity();  // where it has no place
-    for (std::size_t c = 0; c < population_; ++c) {
-        const auto found = mean_and_error(
-            scenarios_, [&](std::size_t s) { return futures_.value(s * population_ + c); });
-        values_[c] = found.mean;
-        errors_[c] = found.error;
-        if (origins_[c] == Origin::Noop) noop_value_ = found.mean;
-    }
-    sort_best();
-}
-
-// As far as the order counts: mppi asks for all of it, the others for the best and the middle.
-void Cem::sort_best() {
-    const auto at = [&](std::size_t place) {
-        return ranked_.begin() + static_cast<std::ptrdiff_t>(std::min(place, population_));
-    };
-    ranked_.clear();
-    for (std::size_t c = 0; c < population_; ++c) ranked_.emplace_back(-values_[c], c);
-    const std::size_t middle = options_.weights == Weights::Mppi ? 0 : population_ / 2;
-    const std::size_t wanted =
-        std::max({elites(), static_cast<std::size_t>(options_.kept), most_compared});
-    std::ranges::nth_element(ranked_, at(middle));
-    std::ranges::partial_sort(ranked_.begin(), at(std::min(wanted, middle)), at(middle));
-    if (wanted > middle) std::ranges::sort(at(middle), ranked_.end());
-    for (std::size_t k = 0; k < population_; ++k) order_[k] = ranked_[k].second;
-}
-
-std::size_t Cem::elites() const {
-    return static_cast<std::size_t>(std::ceil(options_.elites * static_cast<double>(population_)));
-}
-
-// Toward the elites, of which each is better than the middle of the population: where most are
-// alike, nothing is to be learned from those.
-void Cem::refit(Memory& memory) {
-    const double best = values_[order_.front()], median = values_[order_[population_ / 2]];
-    if (!(best > median)) return;
-    fitted_.clear();
-    weights_.clear();
-    if (options_.weights == Weights::Elites) {
-        for (std::size_t k = 0; k < elites() && values_[order_[k]] > median; ++k) {
-            fitted_.push_back(order_[k]);
-            weights_.push_back(1);
-        }
-    } else {
-        const auto finite =
-            std::ranges::count_if(values_, [](double v) { return std::isfinite(v); });
-        const auto spread = mean_and_error(static_cast<std::size_t>(finite),
-                                           [&](std::size_t k) { return values_[order_[k]]; });
-        const double scale = std::max(
-            options_.temperature * spread.error * std::sqrt(static_cast<double>(finite)), 1e-300);
-        for (std::size_t k = 0; k < static_cast<std::size_t>(finite); ++k) {
-            fitted_.push_back(order_[k]);
-            weights_.push_back(std::exp((values_[order_[k]] - best) / scale));
-        }
-    }
-    const double sum = std::accumulate(weights_.begin(), weights_.end(), 0.0);
-    for (double& weight : weights_) weight /= sum;
-    memory.distribution.fit(plans_, fitted_, weights_, options_.memory,
-                            options_.weights == Weights::Mppi);
-}
-
-void Cem::keep_best(Memory& memory) {
-    memory.kept_count = memory.kept.size();
-    for (std::size_t k = 0; k < memory.kept_count; ++k) {
-        end_by_noop(memory.kept[k], static_cast<std::int64_t>(plans_.steps()), memory.horizon);
-        plans_.get(order_[k], memory.kept[k]);
-        memory.kept_values[k] = {values_[order_[k]], errors_[order_[k]]};
-    }
-}
-
-// A population that was not played to its end counts only with the plans that were kept before.
-void Cem::rank_kept(const Memory& memory) {
-    std::iota(order_.begin(), order_.end(), std::size_t{0});
-    for (std::size_t c = 0; c < population_; ++c) {
-        const bool is_kept = c < memory.kept_count;
-        values_[c] =
-            is_kept ? memory.kept_values[c].first : -std::numeric_limits<double>::infinity();
-        errors_[c] = is_kept ? memory.kept_values[c].second : 0;
-    }
 }
 
 const std::byte* Cem::first_action(std::size_t plan) const {
@@ -372,19 +284,23 @@ void Cem::decide(const DecisionPoint& point, std::byte* action, Explanation* exp
         explanation->steps = meter.steps();
         note_candidates(*explanation, chosen);
     }
-    move_on(memory);
+    move_on(memory, point.left);
 }
 
-// A step is made: what was found for the steps after it is where the next decision begins.
-void Cem::move_on(Memory& memory) {
+// A step is made: what was found for the steps after it is where the next decision begins. Plans
+// get no longer than what is left of the episode.
+void Cem::move_on(Memory& memory, std::int64_t left) {
+    const std::int64_t before = memory.horizon;
+    memory.horizon = std::clamp<std::int64_t>(left - 1, 1, before);
     memory.distribution.shift();
+    memory.distribution.shorten(memory.horizon);
     for (std::size_t k = 0; k < memory.kept_count; ++k) {
         Plan& plan = memory.kept[k];
         std::shift_left(plan.numbers.begin(), plan.numbers.end(),
                         static_cast<std::ptrdiff_t>(default_numbers_.size()));
         std::shift_left(plan.indices.begin(), plan.indices.end(),
                         static_cast<std::ptrdiff_t>(default_indices_.size()));
-        end_by_noop(plan, memory.horizon - 1, memory.horizon);
+        end_by_noop(plan, before - 1, memory.horizon);
     }
 }
 

@@ -50,6 +50,10 @@ class Cem : public Planner {
         // Populations, one after the other, of which nothing was better than doing nothing.
         std::int64_t fruitless = 0;
     };
+    struct Ranked {
+        double value;
+        std::size_t plan;
+    };
     struct Choice {
         std::size_t plan;
         double value, error;
@@ -74,6 +78,7 @@ class Cem : public Planner {
     void rank();
     void sort_best();
     std::size_t elites() const;
+    bool is_above_median(double value) const;
     void rank_kept(const Memory& memory);
     void refit(Memory& memory);
     void keep_best(Memory& memory);
@@ -91,14 +96,15 @@ class Cem : public Planner {
                    BudgetMeter& meter);
     void note_candidates(Explanation& explanation, const Choice& chosen) const;
     const std::byte* first_action(std::size_t plan) const;
-    void move_on(Memory& memory);
+    void move_on(Memory& memory, std::int64_t left);
 
     const rddl_simulator& simulator_;
     CemOptions options_;
     std::int64_t batch_horizon_;  // as in PlannerContext
     solvers::ActionSpace space_;
-    double near_part_;           // of the budget and of the memory, for near plans
-    std::int64_t memory_limit_;  // of all others
+    double near_part_;                         // of the budget and of the memory, for near plans
+    std::int64_t memory_limit_;                // of all others
+    std::optional<std::int64_t> steps_limit_;  // of all others in a decision
     solvers::ActionRecords records_;
     std::size_t population_, scenarios_, lanes_;
     Futures futures_;
@@ -121,8 +127,8 @@ class Cem : public Planner {
     std::vector<Origin> origins_;
     std::vector<double> values_, errors_;
     double noop_value_ = 0;
-    std::vector<std::size_t> order_;                      // the best first
-    std::vector<std::pair<double, std::size_t>> ranked_;  // a value's negative, and its plan
+    std::vector<std::size_t> order_;  // the best first
+    std::vector<Ranked> ranked_;
     std::vector<std::byte> firsts_;  // action records of each plan's first step
     // The lanes.
     std::vector<std::uint64_t> streams_;

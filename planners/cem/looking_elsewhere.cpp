@@ -13,7 +13,7 @@ constexpr std::int64_t longest_search = 1000;
 // The lanes of a novelty search that takes a part of the budget, and of the memory.
 std::int64_t novelty_lanes(const rddl_simulator& simulator, const CemOptions& options,
                            std::int64_t batch_horizon, std::int64_t memory_limit,
-                           std::int64_t action_values) {
+                           std::int64_t steps_limit, std::int64_t action_values) {
     constexpr std::int64_t parts = 4, usual_horizon = 100;
     std::int64_t steps = solvers::steps_of_horizon(*simulator.problem, batch_horizon);
     if (steps == 0) steps = usual_horizon;
@@ -21,8 +21,7 @@ std::int64_t novelty_lanes(const rddl_simulator& simulator, const CemOptions& op
     const std::int64_t bytes =
         solvers::bytes_per_environment(simulator) + steps * action_values * 4;
     const std::int64_t affordable =
-        std::min(options.budget.steps.value_or(most_steps) / (parts * steps),
-                 memory_limit / (parts * bytes));
+        std::min(steps_limit / (parts * steps), memory_limit / (parts * bytes));
     return std::clamp(affordable, least_lanes, most_lanes);
 }
 
@@ -54,6 +53,7 @@ bool Cem::look_for_rare_states(Memory& memory, const DecisionPoint& point, Rando
     if (!novelty_search_)
         novelty_search_.emplace(simulator_, space_, records_, correlations_of(options_),
                                 novelty_lanes(simulator_, options_, batch_horizon_, memory_limit_,
+                                              steps_limit_.value_or(most_steps),
                                               space_.real_count() + space_.index_count()),
                                 batch_horizon_);
     const auto lanes = novelty_search_->lanes() + static_cast<std::int64_t>(lanes_);

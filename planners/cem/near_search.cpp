@@ -30,17 +30,13 @@ CemOptions near_options(CemOptions options, double part) {
     options.tail = Tail::Policy;
     options.seed += 1;
     if (!options.scenarios) options.scenarios = 1;
-    Budget& budget = options.budget;
-    if (!budget.seconds && !budget.steps && !budget.iterations) budget.seconds = default_seconds;
-    if (budget.seconds) *budget.seconds *= part;
-    if (budget.steps) budget.steps = NearSearch::share(part, *budget.steps);
-    if (budget.iterations) budget.iterations = NearSearch::share(part, *budget.iterations);
+    options.budget = share_of(options.budget, part);
     return options;
 }
 
 PlannerContext near_context(PlannerContext context, double part) {
     context.base.reset();
-    context.memory_limit = NearSearch::share(part, context.memory_limit);
+    context.memory_limit = share_of(context.memory_limit, part);
     return context;
 }
 
@@ -56,14 +52,10 @@ double usual_part_of(const CemOptions& options, const solvers::ActionSpace& spac
 
 }  // namespace
 
-std::int64_t NearSearch::share(double part, std::int64_t whole) {
-    return static_cast<std::int64_t>(part * static_cast<double>(whole));
-}
-
 double NearSearch::part_of(const CemOptions& options, const solvers::ActionSpace& space) {
     const double part = options.near ? *options.near : usual_part_of(options, space);
     const auto is_too_little = [part](const std::optional<std::int64_t>& limit) {
-        return limit && share(part, *limit) == 0;
+        return limit && share_of(*limit, part) == 0;
     };
     return is_too_little(options.budget.steps) || is_too_little(options.budget.iterations) ? 0
                                                                                            : part;

@@ -10,6 +10,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace rddlc::planners {
@@ -22,9 +23,13 @@ class NearSearch {
     // none, also where that would be less than one step or one iteration.
     static double part_of(const CemOptions& options, const solvers::ActionSpace& space);
 
-    // So much of the whole, and what remains of it for all other plans.
-    static std::int64_t share(double part, std::int64_t whole);
-    static std::int64_t rest(double part, std::int64_t whole) { return whole - share(part, whole); }
+    // The rest of the whole, for all other plans.
+    static std::int64_t rest(double part, std::int64_t whole) {
+        return whole - share_of(whole, part);
+    }
+    static std::optional<std::int64_t> rest(double part, std::optional<std::int64_t> whole) {
+        return whole ? std::optional(rest(part, *whole)) : whole;
+    }
 
     // It takes that part of both.
     NearSearch(const PlannerContext& context, const CemOptions& options, double part);

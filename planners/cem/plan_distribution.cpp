@@ -66,6 +66,15 @@ void Distribution::extend(std::int64_t steps) {
     begin_steps(before);
 }
 
+void Distribution::shorten(std::int64_t steps) {
+    if (steps >= steps_) return;
+    steps_ = steps;
+    const auto rows = static_cast<std::size_t>(steps);
+    means_.resize(rows * reals());
+    deviations_.resize(means_.size());
+    probabilities_.resize(rows * logits());
+}
+
 void Distribution::begin_steps(std::int64_t from) {
     for (auto t = static_cast<std::size_t>(from); t < static_cast<std::size_t>(steps_); ++t) {
         std::ranges::copy(first_means_, means_.begin() + t * reals());

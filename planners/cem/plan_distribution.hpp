@@ -29,6 +29,8 @@ class Distribution {
     void restart(std::int64_t steps);
     // More steps; those that are added are as in a new episode.
     void extend(std::int64_t steps);
+    // No more steps than that.
+    void shorten(std::int64_t steps);
     // A step was made: the first one goes, the others are a bit wider again.
     void shift();
     // Goes to that plan, which has as many steps.

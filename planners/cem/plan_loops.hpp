@@ -32,6 +32,8 @@ struct RealScale {
 
 struct PlanLoops {
     void (*next_numbers)(const NumberNoise& noise, std::size_t plans, float* numbers);
+    // widths[p] = exp(1.5 n), n being noise of its own.
+    void (*draw_widths)(std::uint32_t key, std::size_t plans, float* widths);
     void (*next_ranks)(const RankNoise& noise, std::size_t plans, std::int32_t* ranks);
     // number = mean + deviation * noise; where it is bounded, between -1 and 1, else with noise
     // that is widths[p] times as wide in plan p.

@@ -23,6 +23,24 @@ inline void next_numbers(const NumberNoise& noise, std::size_t plans, float* num
         numbers[p] = old[p] * numbers[p] + fresh[p] * bell_of(noise_bits(key, p));
 }
 
+// 2^x for x <= 0, within 2e-7 of its value. Polynomials are sums of short ones, which do not wait
+// for each other.
+inline float power_of_two(float x) {
+    x = x > -126 ? x : -126;
+    const auto whole = static_cast<std::int32_t>(x);
+    const float r = x - static_cast<float>(whole), square = r * r;  // r in (-1, 0]
+    const float low = (1.0f + 0.69314712f * r) + (0.24022487f + 0.05549252f * r) * square;
+    const float high = (0.0095818322f + 0.0012765167f * r) + 0.00010944255f * square;
+    return (low + high * (square * square)) * std::bit_cast<float>((whole + 127) << 23);
+}
+
+inline void draw_widths(std::uint32_t key, std::size_t plans, float* widths) {
+    // Exponents are lowered by 7 and raised again, since power_of_two() takes none above 0.
+    constexpr float octaves = 1.5f * 1.44269504f, most_octaves = 7, scale = 128;
+    for (std::size_t p = 0; p < plans; ++p)
+        widths[p] = scale * power_of_two(octaves * bell_of(noise_bits(key, p)) - most_octaves);
+}
+
 inline void next_ranks(const RankNoise& noise, std::size_t plans, std::int32_t* ranks) {
     const std::uint32_t* const keep = noise.keep;
     const std::uint32_t key = noise.key;
@@ -82,32 +100,12 @@ inline void keep_habits(const std::int32_t* habits, const std::int32_t* ranks, s
     for (std::size_t p = 0; p < plans; ++p) chosen[p] = ranks[p] < habits[p] ? usual : chosen[p];
 }
 
-// 2^x for x <= 0, within 2e-7 of its value.
-inline float power_of_two(float x) {
-    x = x > -126 ? x : -126;
-    const auto whole = static_cast<std::int32_t>(x);
-    const float rest = x - static_cast<float>(whole);  // in (-1, 0]
-    float power = 0.00010944255f;
-    power = power * rest + 0.0012765167f;
-    power = power * rest + 0.0095818322f;
-    power = power * rest + 0.05549252f;
-    power = power * rest + 0.24022487f;
-    power = power * rest + 0.69314712f;
-    power = power * rest + 1.0f;
-    return power * std::bit_cast<float>((whole + 127) << 23);
-}
-
 // log(1 + y) for y in [0, 1], within 5e-7 of its value.
 inline float log_of_one_and(float y) {
-    float quotient = -0.00877026f;
-    quotient = quotient * y + 0.045214139f;
-    quotient = quotient * y - 0.10974114f;
-    quotient = quotient * y + 0.17927648f;
-    quotient = quotient * y - 0.24577269f;
-    quotient = quotient * y + 0.33292857f;
-    quotient = quotient * y - 0.49998793f;
-    quotient = quotient * y + 1.0f;
-    return quotient * y;
+    const float square = y * y;
+    const float low = (1.0f - 0.49998793f * y) + (0.33292857f - 0.24577269f * y) * square;
+    const float high = (0.17927648f - 0.10974114f * y) + (0.045214139f - 0.00877026f * y) * square;
+    return (low + high * (square * square)) * y;
 }
 
 // As real_value has it, without calls, so that loops of it are vectorised.
@@ -120,25 +118,28 @@ inline double quick_softplus(float x) {
 inline void real_values(const RealScale& real, const float* numbers, std::size_t plans,
                         double* values) {
     const double lower = real.lower, upper = real.upper, scale = real.scale, centre = real.centre;
+    const double half_width = 0.5 * (upper - lower);
     const float short_default = real.short_default;
     const double exact_default = real.exact_default;
+    // One clamp to the bounds and to +-1e9, since ints may not be anything.
+    const double least = clamped(-1e9, lower, upper), most = clamped(1e9, lower, upper);
     const auto finished = [=](double value) {
-        const auto rounded = static_cast<float>(clamped(clamped(value, -1e9, 1e9), lower, upper));
+        const auto rounded = static_cast<float>(clamped(value, least, most));
         // The float next to a bound may lie beyond it.
-        return rounded == short_default ? exact_default
-                                        : clamped(static_cast<double>(rounded), lower, upper);
+        const double within = clamped(static_cast<double>(rounded), lower, upper);
+        return rounded == short_default ? exact_default : within;
     };
     const auto make_values = [=](auto value_of) {
         if (real.rounds)
             for (std::size_t p = 0; p < plans; ++p)
-                values[p] = finished(__builtin_nearbyint(clamped(value_of(numbers[p]), -1e9, 1e9)));
+                values[p] = finished(__builtin_nearbyint(value_of(numbers[p])));
         else
             for (std::size_t p = 0; p < plans; ++p) values[p] = finished(value_of(numbers[p]));
     };
     using Range = solvers::RealHead::Range;
     if (real.range == Range::Bounded)
         make_values([=](float u) {
-            return lower + (clamped(static_cast<double>(u), -1.0, 1.0) + 1) * 0.5 * (upper - lower);
+            return lower + (static_cast<double>(clamped(u, -1.0f, 1.0f)) + 1) * half_width;
         });
     else if (real.range == Range::AboveLower)
         make_values([=](float u) { return lower + scale * quick_softplus(u); });
@@ -148,5 +149,5 @@ inline void real_values(const RealScale& real, const float* numbers, std::size_t
         make_values([=](float u) { return centre + scale * static_cast<double>(u); });
 }
 
-inline constexpr PlanLoops loops{next_numbers, next_ranks,  scale_numbers, count_reached,
-                                 stretch,      keep_habits, real_values};
+inline constexpr PlanLoops loops{next_numbers,  draw_widths, next_ranks,  scale_numbers,
+                                 count_reached, stretch,     keep_habits, real_values};

@@ -24,10 +24,18 @@ PlanNoise::PlanNoise(std::size_t plans, int reals, int ranks, std::span<const do
     }
 }
 
+namespace {
+
+std::uint32_t key_of(RandomStream& stream) {
+    return static_cast<std::uint32_t>(stream.bits() >> 32);
+}
+
+}  // namespace
+
 void PlanNoise::restart(RandomStream& stream) {
     is_first_ = true;
-    if (!numbers_.empty())
-        for (float& width : widths_) width = std::exp(1.5f * stream.bell());
+    for (float* row = widths_.data(); row < widths_.data() + widths_.size(); row += plans_)
+        loops_.draw_widths(key_of(stream), plans_, row);
     if (ranks_.empty()) return;
     for (std::size_t p = 1; p < plans_; p += 2) {
         constexpr double rarest = 7;  // in powers of two
@@ -38,16 +46,13 @@ void PlanNoise::restart(RandomStream& stream) {
 }
 
 void PlanNoise::next_step(RandomStream& stream) {
-    const auto key = [&] {
-        return static_cast<std::uint32_t>(stream.bits() >> 32);
-    };
     const float* const old = is_first_ ? nothing_.data() : old_.data();
     const float* const fresh = is_first_ ? all_.data() : fresh_.data();
     for (float* row = numbers_.data(); row < numbers_.data() + numbers_.size(); row += plans_)
-        loops_.next_numbers({key(), old, fresh}, plans_, row);
+        loops_.next_numbers({key_of(stream), old, fresh}, plans_, row);
     const std::uint32_t* const keep = is_first_ ? no_chance_.data() : keep_.data();
     for (std::int32_t* row = ranks_.data(); row < ranks_.data() + ranks_.size(); row += plans_)
-        loops_.next_ranks({key(), keep}, plans_, row);
+        loops_.next_ranks({key_of(stream), keep}, plans_, row);
     is_first_ = false;
 }
 

@@ -11,7 +11,12 @@ BasePolicy::BasePolicy(const rddl_simulator& simulator, solvers::Policy policy, 
       episodes_(static_cast<std::size_t>(count)),
       steps_(episodes_.size()),
       violated_(episodes_.size(), -1),
-      actions_(episodes_.size() * static_cast<std::size_t>(simulator.problem->action_size)) {}
+      actions_(episodes_.size() * static_cast<std::size_t>(simulator.problem->action_size)) {
+    const auto* const action = static_cast<const std::byte*>(simulator_.problem->default_action);
+    const auto size = static_cast<std::size_t>(simulator_.problem->action_size);
+    for (std::size_t k = 0; k < episodes_.size(); ++k)
+        std::copy_n(action, size, actions_.data() + k * size);
+}
 
 void BasePolicy::begin(std::int64_t episode, std::span<const std::int64_t> steps,
                        std::int64_t horizon, std::span<const std::uint64_t> numbers) {
@@ -33,10 +38,6 @@ void BasePolicy::restart(std::int64_t episode, std::int64_t horizon,
     horizon_ = horizon;
     for (std::size_t k = 0; k < episodes_.size(); ++k)  // a recorded plan goes on with its own
         episodes_[k] = policy_.plans > 0 ? episode : static_cast<std::int64_t>(numbers[k] >> 2);
-    const auto* const action = static_cast<const std::byte*>(simulator_.problem->default_action);
-    const auto size = static_cast<std::size_t>(simulator_.problem->action_size);
-    for (std::size_t k = 0; k < episodes_.size(); ++k)
-        std::copy_n(action, size, actions_.data() + k * size);
 }
 
 void BasePolicy::act(Futures& futures, std::byte* actions, const solvers::Stops* stops) {

@@ -19,23 +19,28 @@ struct Budget {
 };
 inline constexpr double default_seconds = 0.1;
 
+inline std::int64_t share_of(std::int64_t whole, double share) {
+    return static_cast<std::int64_t>(share * static_cast<double>(whole));
+}
+// A part of each limit, the default one included; at least one iteration.
+inline Budget share_of(Budget budget, double share) {
+    if (!budget.seconds && !budget.steps && !budget.iterations) budget.seconds = default_seconds;
+    if (share == 1) return budget;
+    if (budget.seconds) *budget.seconds *= share;
+    if (budget.steps) budget.steps = share_of(*budget.steps, share);
+    if (budget.iterations)
+        budget.iterations = std::max<std::int64_t>(1, share_of(*budget.iterations, share));
+    return budget;
+}
+
 class BudgetMeter {
   public:
     // A search has that part of what `spent` steps have left.
-    BudgetMeter(const Budget& budget, const solvers::Stops* stops, double share = 1,
+    BudgetMeter(Budget budget, const solvers::Stops* stops, double share = 1,
                 std::int64_t spent = 0)
-        : budget_(budget), stops_(stops), begin_(Clock::now()) {
-        if (!budget.seconds && !budget.steps && !budget.iterations)
-            budget_.seconds = default_seconds;
-        const auto part = [share](std::int64_t whole) {
-            return static_cast<std::int64_t>(share * static_cast<double>(whole));
-        };
-        if (budget_.steps) *budget_.steps -= spent;
-        if (share == 1) return;
-        if (budget_.seconds) *budget_.seconds *= share;
-        if (budget_.steps) budget_.steps = part(*budget_.steps);
-        if (budget_.iterations)
-            budget_.iterations = std::max<std::int64_t>(1, part(*budget_.iterations));
+        : stops_(stops), begin_(Clock::now()) {
+        if (budget.steps) *budget.steps -= spent;
+        budget_ = share_of(budget, share);
     }
 
     void add_steps(std::int64_t steps) { steps_ += steps; }

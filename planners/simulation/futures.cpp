@@ -1,6 +1,7 @@
 #include "planners/simulation/futures.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 
@@ -25,6 +26,7 @@ Futures::Futures(const rddl_simulator& simulator, std::int64_t count, std::int64
       rewards_(sources_.size()),
       last_rewards_(sources_.size()),
       returns_(sources_.size()),
+      sums_(sources_.size()),
       causes_(sources_.size()),
       running_(sources_.size()),
       cut_(sources_.size()) {}
@@ -74,18 +76,25 @@ bool Futures::take_plain_step() {
     if (made_ + 1 >= next_limit_) return false;
     const std::size_t lanes = returns_.size();
     std::uint8_t ends = 0;
-    for (std::size_t k = 0; k < lanes; ++k)
-        ends = static_cast<std::uint8_t>(ends | (running_[k] * causes_[k]));
+    const std::uint8_t *const causes = causes_.data(), *const running = running_.data();
+    for (std::size_t k = 0; k < lanes; ++k)  // masks, since bytes are multiplied slowly
+        ends =
+            static_cast<std::uint8_t>(ends | (causes[k] & static_cast<std::uint8_t>(-running[k])));
     if (ends != RDDL_RUNNING) return false;
     // The batch reports rewards of 0 for those that have ended, but not for those that limits
     // ended.
     if (running_count_ < count())
         for (std::size_t k = 0; k < lanes; ++k) rewards_[k] = running_[k] ? rewards_[k] : 0;
-    std::int64_t bad = 0;
-    for (const double reward : rewards_) bad += reward - reward == 0 ? 0 : 1;
-    if (bad > 0) return false;
+    std::uint64_t bad = 0;  // the bits of zeros, or of nan
     const double discount = discount_;
-    for (std::size_t k = 0; k < lanes; ++k) returns_[k] += discount * rewards_[k];
+    const double *const rewards = rewards_.data(), *const returns = returns_.data();
+    double* const sums = sums_.data();
+    for (std::size_t k = 0; k < lanes; ++k) {
+        bad |= std::bit_cast<std::uint64_t>(rewards[k] - rewards[k]);
+        sums[k] = returns[k] + discount * rewards[k];
+    }
+    if (bad != 0) return false;
+    returns_.swap(sums_);
     return true;
 }
 

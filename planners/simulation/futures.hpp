@@ -78,6 +78,7 @@ class Futures {
     std::vector<std::int64_t> sources_;
     std::vector<std::int64_t> limits_;  // steps that it may make
     std::vector<double> rewards_, last_rewards_, returns_;
+    std::vector<double> sums_;  // room for the returns of a step that may not count
     std::vector<std::uint8_t> causes_, running_, cut_;
     std::int64_t running_count_ = 0, stepped_ = 0;
     std::int64_t made_ = 0;               // steps since begin

@@ -33,12 +33,9 @@ CemOptions plan_options(const UctOptions& options) {
     CemOptions plans;
     static_cast<CommonOptions&>(plans) = options;
     plans.seed += 1;
-    Budget& budget = plans.budget;
-    if (!budget.seconds && !budget.steps && !budget.iterations) budget.seconds = default_seconds;
-    if (budget.seconds) *budget.seconds *= plan_share;
-    if (budget.steps)
-        budget.steps = static_cast<std::int64_t>(plan_share * static_cast<double>(*budget.steps));
-    if (budget.iterations) budget.iterations = *budget.iterations / trials_of_population;
+    plans.budget = share_of(options.budget, plan_share);
+    if (auto& populations = plans.budget.iterations)
+        populations = std::max<std::int64_t>(1, *populations / trials_of_population);
     return plans;
 }
 

@@ -1,4 +1,5 @@
 #include "planners/cem/plan_distribution.hpp"
+#include "planners/simulation/budget.hpp"
 #include "planning.hpp"
 #include "solvers/spaces/actions.hpp"
 
@@ -95,6 +96,30 @@ TEST(Cem, LooksNear) {
     for (const auto& [place, explanation] : plan.explanation) EXPECT_LE(explanation.steps, 2000);
 }
 
+// Four populations, and a comparison that takes as many steps as one, fit into what is left.
+TEST(Cem, SizesPopulationsByWhatNearPlansLeave) {
+    const auto populations = [](const std::string& options) {
+        return run(network(), "plan:cem,scenarios=1," + options).thought(0, 0).iterations;
+    };
+    const std::int64_t near = populations("near=0,horizon=2,steps=800");
+    EXPECT_EQ(populations("near=0.5,horizon=4,steps=1600"), near + 4);
+}
+
+TEST(Budget, HasShares) {
+    const Budget none = share_of(Budget{}, 0.5);
+    EXPECT_EQ(none.seconds, default_seconds / 2);
+    EXPECT_FALSE(none.steps || none.iterations);
+    const Budget quarter = share_of(Budget{.seconds = {}, .steps = 1000, .iterations = 3}, 0.25);
+    EXPECT_FALSE(quarter.seconds);
+    EXPECT_EQ(quarter.steps, 250);
+    EXPECT_EQ(quarter.iterations, 1);
+    // A share is that of the steps which are left.
+    EXPECT_EQ(
+        BudgetMeter(Budget{.seconds = {}, .steps = 1000, .iterations = {}}, nullptr, 0.25, 200)
+            .steps_left(),
+        200);
+}
+
 // That holds for each budget, for memory, and for few steps where the user asks for it.
 TEST(Cem, LooksNearWithinItsPart) {
     const auto thought = [](const std::string& options,
@@ -187,6 +212,15 @@ TEST(Plans, AreFitted) {
         if (space.max_sub_actions == 0) {
             EXPECT_EQ(middle.indices, drawn.indices);
         }
+        // Fewer steps are the first ones.
+        distribution.shorten(3);
+        EXPECT_EQ(distribution.steps(), 3);
+        Plan first = drawn;
+        distribution.middle(first);
+        for (std::size_t k = 0; k < static_cast<std::size_t>(3 * space.real_count()); ++k)
+            EXPECT_EQ(first.numbers[k], middle.numbers[k]);
+        for (std::size_t k = 0; k < static_cast<std::size_t>(3 * space.index_count()); ++k)
+            EXPECT_EQ(first.indices[k], middle.indices[k]);
     }
 }
 

@@ -44,6 +44,8 @@ TEST(PlanLoops, ComputeTheSameBitsOnAllInstructionSets) {
         for (std::uint32_t key = 1; key < 40; ++key) {
             loops.next_numbers({key, old.data(), fresh.data()}, plans, noise.data());
             loops.next_ranks({key, keep.data()}, plans, ranks.data());
+            loops.draw_widths(key, plans, numbers.data());
+            note(numbers);
             note(noise);
             note(ranks);
         }
@@ -117,12 +119,33 @@ TEST(PlanLoops, GiveRealsTheirValues) {
     plan_loops().real_values({Range::Bounded, false, -0.1, 0.1, 1, 0, 0.0f, 0.0}, &upmost, 1,
                              &bound);
     EXPECT_EQ(bound, 0.1);
+    // Ints are within 1e9 also where they have no bounds.
+    const float huge = 1e30f;
+    double most = 0;
+    plan_loops().real_values({Range::Free, true, -infinity, infinity, 1, 0, 0.0f, 0.0}, &huge, 1,
+                             &most);
+    EXPECT_EQ(most, 1e9);
     // A value that is the default as a float is the default itself.
     const float middle = 0;
     double value = 0;
     plan_loops().real_values({Range::Free, false, -infinity, infinity, 1, 0.1, 0.1f, 0.1}, &middle,
                              1, &value);
     EXPECT_EQ(value, 0.1);
+}
+
+TEST(PlanLoops, DrawWidthsAboveAndBelowOne) {
+    constexpr std::size_t many = 20'000;
+    std::vector<float> widths(many);
+    plan_loops().draw_widths(7, many, widths.data());
+    double sum = 0, squares = 0;
+    for (const float width : widths) {
+        const auto power = static_cast<double>(std::log(width));
+        EXPECT_LE(std::abs(power), 4.5 + 1e-4);
+        sum += power;
+        squares += power * power;
+    }
+    EXPECT_NEAR(sum / many, 0, 0.05);
+    EXPECT_NEAR(std::sqrt(squares / many), 1.5, 0.05);
 }
 
 TEST(PlanNoise, IsCorrelatedAndKeepsItsDistribution) {

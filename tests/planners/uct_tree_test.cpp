@@ -1,4 +1,5 @@
 // Plan:uct searches in its tree and in the determinised problem.
+#include "planners/simulation/record_hash.hpp"
 #include "planners/uct/determinised_problem.hpp"
 #include "planners/uct/tree.hpp"
 #include "planning.hpp"
@@ -6,13 +7,37 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cstring>
 #include <limits>
+#include <set>
 #include <tuple>
 #include <vector>
 
 namespace rddlc::planners {
 namespace {
+
+// Each byte counts, whatever the size, and so does the step. All records of 12 bools differ.
+TEST(RecordHash, DiffersWithEachByte) {
+    for (std::size_t size = 1; size < 40; ++size) {
+        std::vector<std::byte> record(size);
+        std::set<std::uint64_t> keys{hash_of(record.data(), size), hash_of(record.data(), size, 1)};
+        for (std::byte& byte : record) {
+            byte = std::byte{1};
+            keys.insert(hash_of(record.data(), size));
+            byte = std::byte{0};
+        }
+        EXPECT_EQ(keys.size(), size + 2);
+    }
+    constexpr std::size_t bools = 12;
+    std::set<std::uint64_t> keys;
+    for (unsigned k = 0; k < 1u << bools; ++k) {
+        std::array<std::byte, bools + 3> record{};
+        for (unsigned b = 0; b < bools; ++b) record[b] = static_cast<std::byte>(k >> b & 1);
+        keys.insert(hash_of(record.data(), record.size()));
+    }
+    EXPECT_EQ(keys.size(), 1u << bools);
+}
 
 // A tree of states that have numbers.
 struct SmallTree {
