@@ -465,13 +465,14 @@ typedef std::uint64_t TwoWords __attribute__((vector_size(16)));
     load(std::uint8_t{});
     return (__m128i)words;
 }
-// The same of 0 < `count` <= 64 bytes.
+// The same of 0 < `count` <= 64 bytes, with any values behind them.
 [[gnu::always_inline]] inline __m512i load_many_parts(const void* bytes, int count) {
     const auto part = [&](int i) __attribute__((always_inline)) {
         const int rest = count - i;
         if (rest <= 0) return __m128i{};
         return load_parts(static_cast<const char*>(bytes) + i, rest < 16 ? rest : 16);
     };
+    if (count <= 16) return _mm512_castsi128_si512(part(0));
     const auto half = [&](int i) __attribute__((always_inline)) {
         return _mm256_inserti128_si256(_mm256_castsi128_si256(part(i)), part(i + 16), 1);
     };
