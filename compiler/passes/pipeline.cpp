@@ -31,6 +31,7 @@
 #include "passes/lanes/choose_evaluation.hpp"
 #include "passes/lanes/evaluate_together.hpp"
 #include "passes/lanes/group_angles.hpp"
+#include "passes/lanes/narrow_objects.hpp"
 #include "passes/lanes/quantify_together.hpp"
 #include "passes/lanes/read_places.hpp"
 #include "passes/lanes/separate_aggregations.hpp"
@@ -265,6 +266,12 @@ constexpr Pass in_order[] = {
      {"share_across_definitions"},
      "a table of places has to serve all that read by it",
      may_find_more},
+    {"narrow_objects",
+     Phase::Lanes,
+     narrow_objects,
+     "constants that decide which objects reach an expression are known there",
+     {"read_places"},
+     "it has made tables of places, which may become fewer"},
     {"separate_draws",
      Phase::Lanes,
      separate_draws,
