@@ -31,6 +31,7 @@
 #include "passes/lanes/choose_evaluation.hpp"
 #include "passes/lanes/evaluate_together.hpp"
 #include "passes/lanes/group_angles.hpp"
+#include "passes/lanes/name_elements.hpp"
 #include "passes/lanes/narrow_objects.hpp"
 #include "passes/lanes/quantify_together.hpp"
 #include "passes/lanes/read_places.hpp"
@@ -364,6 +365,12 @@ constexpr Pass in_order[] = {
      "loops of draws know which objects an action leaves as they are",
      {"evaluate_together"},
      "it says which loops run over several objects, and not over words"},
+    {"name_elements",
+     Phase::Lanes,
+     name_elements,
+     "elements that several branches of a loop over words choose by place are chosen once",
+     {"visit_affected", "visit_chosen"},
+     "these look for loops of one statement"},
     {"choose_evaluation",
      Phase::Lanes,
      choose_evaluation,

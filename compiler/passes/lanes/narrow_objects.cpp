@@ -79,14 +79,15 @@ class Narrowing {
           evaluator_(std::as_const(program_)) {}
 
     ir::Program run() && {
-        for (ir::Definition& definition : program_.step) change(definition.body, definition.span);
-        change(program_.reward.body, program_.reward.span);
+        for (ir::Definition& definition : program_.step) change(definition.body);
+        change(program_.reward.body);
+        join_places();
         keep_names();
         return ir::collect_garbage(std::move(program_));
     }
 
   private:
-    void change(ir::Block& block, Span span) {
+    void change(ir::Block& block) {
         for (ir::Statement& statement : block) {
             auto* const loop = std::get_if<ir::Loop>(&statement.form);
             if (loop == nullptr) continue;
@@ -94,19 +95,14 @@ class Narrowing {
             nest_ = ir::nest_of(*loop);
             const std::int64_t count = ir::combinations(program_, nest_.variables);
             if (store == nullptr || count > most_narrowed_objects) continue;
-            const ir::NodeId value = narrowed(*store, static_cast<std::size_t>(count), span);
+            known_.clear();
+            narrowed_.clear();
+            const ir::NodeId value =
+                narrowed(store->value, Objects(static_cast<std::size_t>(count), true));
             report_["loops that know their constants in branches"] += value != store->value;
             store->value = value;
+            stores_.push_back(store);
         }
-    }
-
-    ir::NodeId narrowed(const ir::Store& store, std::size_t count, Span span) {
-        known_.clear();
-        narrowed_.clear();
-        places_.clear();
-        const ir::NodeId value = narrowed(store.value, Objects(count, true));
-        std::map<ir::NodeId, ir::NodeId> joined = joined_places(span);
-        return joined.empty() ? value : ir::replace_in(builder_, value, joined);
     }
 
     // ------------------------------------------------------------------------------- values
@@ -202,7 +198,8 @@ class Narrowing {
         const ir::Load* const load = element ? place_of(*element) : nullptr;
         if (load == nullptr) return;
         const std::int64_t limit = program_[element->buffer].count();
-        const auto [found, is_new] = places_.try_emplace(element->place);
+        loads_.insert(element->place);
+        const auto [found, is_new] = places_.try_emplace(load->buffer);
         Places& places = found->second;
         if (is_new) {
             places = {{}, Objects(objects.size()), limit};
@@ -214,38 +211,45 @@ class Narrowing {
             places.read[i] = places.read[i] || objects[i];
     }
 
-    // The loads of places, and those that take their place.
-    std::map<ir::NodeId, ir::NodeId> joined_places(Span span) {
-        std::vector<Places> groups;
-        std::map<ir::NodeId, std::size_t> group_of;
-        for (const auto& [load, places] : places_) {
-            const auto group = std::ranges::find_if(
-                groups, [&](const Places& each) { return agree(each, places); });
-            group_of[load] = static_cast<std::size_t>(group - groups.begin());
+    // Tables that agree become one, in all loops.
+    void join_places() {
+        struct Group {
+            ir::BufferId first;
+            Places places;
+        };
+        std::vector<Group> groups;
+        std::map<ir::BufferId, std::size_t> group_of;
+        for (const auto& [table, places] : places_) {
+            const auto group = std::ranges::find_if(groups, [&](const Group& each) {
+                return program_[each.first].types == program_[table].types &&
+                       program_[each.first].shape == program_[table].shape &&
+                       agree(each.places, places);
+            });
+            group_of[table] = static_cast<std::size_t>(group - groups.begin());
             if (group == groups.end())
-                groups.push_back(places);
+                groups.push_back({table, places});
             else
-                join(*group, places);
+                join(group->places, places);
         }
-        for (Places& places : groups) fill_gaps(places);
-        std::map<ir::NodeId, ir::NodeId> joined;
-        for (const auto& [load, group] : group_of)
-            joined[load] = in_place_of(load, groups[group], span);
-        return joined;
+        std::vector<ir::BufferId> joined;
+        for (Group& group : groups) {
+            fill_gaps(group.places);
+            joined.push_back(with_places(group.first, group.places));
+        }
+        std::map<ir::NodeId, ir::NodeId> replaced;
+        for (const ir::NodeId id : loads_) {
+            const ir::Load load = std::get<ir::Load>(program_[id].form);
+            replaced[id] = builder_.load(joined[group_of.at(load.buffer)], load.indices);
+        }
+        for (ir::Store* const store : stores_)
+            store->value = ir::replace_in(builder_, store->value, replaced);
     }
-    ir::NodeId in_place_of(ir::NodeId id, const Places& places, Span span) {
-        const ir::Load load = std::get<ir::Load>(program_[id].form);
-        ir::Buffer table{
-            .name = program_[load.buffer].name,
-            .storage = ir::Storage::Constant,
-            .scalar = ir::Scalar::Int,
-            .values = std::vector<ir::Value>(places.values.begin(), places.values.end()),
-            .span = span,
-            .holds_places = true};
-        ir::set_dimensions(program_, table, nest_.variables);
-        const ir::BufferId joined = builder_.tables().constant(std::move(table));
-        former_.try_emplace(joined, load.buffer);
-        return builder_.load(joined, load.indices);
+    ir::BufferId with_places(ir::BufferId former, const Places& places) {
+        ir::Buffer table = program_[former];
+        table.values = std::vector<ir::Value>(places.values.begin(), places.values.end());
+        const ir::BufferId result = builder_.tables().constant(std::move(table));
+        former_.try_emplace(result, former);
+        return result;
     }
     // Tables keep the names of those whose place they take, if nothing reads these any more.
     void keep_names() {
@@ -269,8 +273,11 @@ class Narrowing {
     ir::Nest nest_;
     std::map<ir::NodeId, std::optional<Objects>> known_;
     std::map<std::pair<ir::NodeId, Objects>, ir::NodeId> narrowed_;
-    std::map<ir::NodeId, Places> places_;  // by their loads
 
+    // Members of all loops: their statements, and what these read by places.
+    std::vector<ir::Store*> stores_;
+    std::set<ir::NodeId> loads_;  // of places
+    std::map<ir::BufferId, Places> places_;
     std::map<ir::BufferId, ir::BufferId> former_;  // by the table that takes its place
 };
 
