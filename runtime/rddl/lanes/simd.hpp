@@ -551,7 +551,7 @@ typedef std::uint64_t TwoWords __attribute__((vector_size(16)));
 template <int n>
 [[gnu::always_inline]] inline void store_as_bytes(std::uint64_t bits, void* bytes, int count) {
 #ifdef RDDL_SIMD_AVX512
-    if (n == 16 && __builtin_constant_p(count))
+    if (n <= 16 && __builtin_constant_p(count))
         return store_parts(bytes, _mm_maskz_set1_epi8(static_cast<__mmask16>(bits), 1), count);
     if (n == 64 && __builtin_constant_p(count)) return store_many_parts(bytes, bits, count);
     const std::uint64_t stored = ~std::uint64_t{0} >> (64 - count);
