@@ -31,6 +31,8 @@
 #include "passes/lanes/choose_evaluation.hpp"
 #include "passes/lanes/evaluate_together.hpp"
 #include "passes/lanes/group_angles.hpp"
+#include "passes/lanes/name_elements.hpp"
+#include "passes/lanes/narrow_objects.hpp"
 #include "passes/lanes/quantify_together.hpp"
 #include "passes/lanes/read_places.hpp"
 #include "passes/lanes/separate_aggregations.hpp"
@@ -265,6 +267,12 @@ constexpr Pass in_order[] = {
      {"share_across_definitions"},
      "a table of places has to serve all that read by it",
      may_find_more},
+    {"narrow_objects",
+     Phase::Lanes,
+     narrow_objects,
+     "constants that decide which objects reach an expression are known there",
+     {"read_places"},
+     "it has made tables of places, which may become fewer"},
     {"separate_draws",
      Phase::Lanes,
      separate_draws,
@@ -357,6 +365,12 @@ constexpr Pass in_order[] = {
      "loops of draws know which objects an action leaves as they are",
      {"evaluate_together"},
      "it says which loops run over several objects, and not over words"},
+    {"name_elements",
+     Phase::Lanes,
+     name_elements,
+     "elements that several branches of a loop over words choose by place are chosen once",
+     {"visit_affected", "visit_chosen"},
+     "these look for loops of one statement"},
     {"choose_evaluation",
      Phase::Lanes,
      choose_evaluation,

@@ -465,13 +465,14 @@ typedef std::uint64_t TwoWords __attribute__((vector_size(16)));
     load(std::uint8_t{});
     return (__m128i)words;
 }
-// The same of 0 < `count` <= 64 bytes.
+// The same of 0 < `count` <= 64 bytes, with any values behind them.
 [[gnu::always_inline]] inline __m512i load_many_parts(const void* bytes, int count) {
     const auto part = [&](int i) __attribute__((always_inline)) {
         const int rest = count - i;
         if (rest <= 0) return __m128i{};
         return load_parts(static_cast<const char*>(bytes) + i, rest < 16 ? rest : 16);
     };
+    if (count <= 16) return _mm512_castsi128_si512(part(0));
     const auto half = [&](int i) __attribute__((always_inline)) {
         return _mm256_inserti128_si256(_mm256_castsi128_si256(part(i)), part(i + 16), 1);
     };
@@ -550,7 +551,7 @@ typedef std::uint64_t TwoWords __attribute__((vector_size(16)));
 template <int n>
 [[gnu::always_inline]] inline void store_as_bytes(std::uint64_t bits, void* bytes, int count) {
 #ifdef RDDL_SIMD_AVX512
-    if (n == 16 && __builtin_constant_p(count))
+    if (n <= 16 && __builtin_constant_p(count))
         return store_parts(bytes, _mm_maskz_set1_epi8(static_cast<__mmask16>(bits), 1), count);
     if (n == 64 && __builtin_constant_p(count)) return store_many_parts(bytes, bits, count);
     const std::uint64_t stored = ~std::uint64_t{0} >> (64 - count);

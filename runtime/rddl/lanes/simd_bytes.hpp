@@ -38,7 +38,7 @@ template <int size>
 #endif
 
 // n bytes, in the parts in which store_bytes and store_as_bytes store them: processors are slow to
-// load what was stored in other parts. Zeros behind them.
+// load what was stored in other parts. Any values behind them.
 template <class V, int n>
 [[gnu::always_inline]] inline V load_bytes(const void* from) {
     V values{};

@@ -208,8 +208,7 @@ RDDL_INLINE ManyBools<bool, n> drawn(Context<ScalarOf<R>>& context, Place place,
         bits[first / 64] |= (simd::nonzero_bytes(wanted.part[part]) & there) << first % 64;
     });
     if constexpr (are_by_pairs<Probability, n>) {
-        const auto drawn = drawn_by_pairs(context, place, p, bits);
-        for (std::size_t w = 0; w < words; ++w) bits[w] &= drawn[w];
+        bits = drawn_by_pairs(context, place, p, bits);
     } else {
         for (std::size_t w = 0; w < words; ++w)
             if (bits[w] != 0)
@@ -244,8 +243,8 @@ RDDL_INLINE ManyBools<Mask<lanes>, n> drawn(Context<Pack<lanes, R>>& context, Pl
 
 }  // namespace detail
 
-// Draws are made where they are wanted; elsewhere they are false. The compiler knows that p is a
-// probability.
+// Draws are made where they are wanted; elsewhere they have any value, which branches leave out.
+// The compiler knows that p is a probability.
 namespace sample {
 
 template <int n, class L, class Probability>
