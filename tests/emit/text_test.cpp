@@ -134,6 +134,15 @@ TEST(EmittedText, ChecksOnlyProbabilitiesThatMayBeNone) {
     EXPECT_EQ(count(emitted(rounded), "::valid_bernoulli("), 1u) << "1 + 2e-16 is the greatest";
 }
 
+TEST(EmittedText, SaysWhichDrawsAreThoseOfTwoObjects) {
+    const auto with_chances = [](int count) {
+        std::string text = problem(count);
+        return emitted(text.replace(text.find("Bernoulli(0.5)"), 14, "Bernoulli(W(?o) / 10)"));
+    };
+    EXPECT_EQ(count(with_chances(2), "::valid_bernoulli(context, rddl::PlaceAmong<o_count>{"), 1u);
+    EXPECT_EQ(count(with_chances(3), "PlaceAmong"), 0u);
+}
+
 TEST(EmittedText, RoundsRealsWithoutInts) {
     std::string text = problem(2);
     const std::string reward = "sum_{?o : o} [W(?o) * on(?o)]";

@@ -11,6 +11,7 @@
 #include "support/match.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 namespace rddlc::cpp {
@@ -252,17 +253,23 @@ tree::Expressions Expressions::place_of_draw(const ir::Place& place,
     const bool is_lone =
         may_be_lone && unit_.has_few_lone_draws && !several_ && unit_.is_lone(place);
     if (is_lone) return this->place(place, "rddl::LonePlace");
-    return this->place(place, distribution == Distribution::Normal ? type_among(place) : "");
+    // Packs make the normals of neighbours together, and of other numbers those of two objects
+    // alone.
+    constexpr std::int64_t any = std::numeric_limits<std::int64_t>::max();
+    const bool is_bernoulli = distribution == Distribution::Bernoulli && !several_;
+    const std::int64_t most = distribution == Distribution::Normal ? any : is_bernoulli ? 2 : 0;
+    return this->place(place, type_among(place, most));
 }
 
-std::string Expressions::type_among(const ir::Place& place) const {
+std::string Expressions::type_among(const ir::Place& place, std::int64_t most) const {
     const auto* index = std::get_if<ir::Index>(&unit_.program[place.index].form);
     const std::vector<ir::VariableId>& scope = unit_.program[place.site].scope;
     if (scope.size() != 1) return "";
     const ir::Variable& object = unit_.program[scope.front()];
     const bool is_in_loop =
         several_ || (index && unit_.program[index->variable].size == object.size);
-    return is_in_loop && object.size > 1 ? "rddl::PlaceAmong<" + unit_.size_of(object) + ">" : "";
+    const bool is_among = is_in_loop && object.size > 1 && object.size <= most;
+    return is_among ? "rddl::PlaceAmong<" + unit_.size_of(object) + ">" : "";
 }
 
 tree::Expressions Expressions::place(const ir::Place& place, const std::string& type) {

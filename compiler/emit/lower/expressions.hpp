@@ -154,8 +154,9 @@ class Expressions {
     // interval.
     tree::Expressions place_of_draw(const ir::Place& place,
                                     std::optional<Distribution> distribution = {});
-    // "rddl::PlaceAmong<c_count>" in a loop over the objects of its scope, else "".
-    std::string type_among(const ir::Place& place) const;
+    // "rddl::PlaceAmong<c_count>" in a loop over the objects of its scope, if there are at most so
+    // many, else "".
+    std::string type_among(const ir::Place& place, std::int64_t most) const;
     tree::Expression elements(tree::Expression table, std::span<const ir::NodeId> indices);
     tree::Expression view(const ir::TableView& view, bool is_written);
     tree::Statement external_call(const ir::Call& call);

@@ -261,9 +261,12 @@ tree::Expressions FunctionBody::numbers_near(const ir::Clearances& clearances) {
 //         context, grid, places, moves, [&](auto& several, auto w, auto x, auto y, ...) { ... });
 tree::Expression FunctionBody::near_object(const ir::Clearances& clearances,
                                            const std::string& count, tree::Expression lambda) {
-    const auto reals = [](const std::vector<double>& values) {
+    const auto real = [&](double value) {
+        return tree::word(literal(value, program().real));
+    };
+    const auto reals = [&](const std::vector<double>& values) {
         tree::Expressions items;
-        for (const double value : values) items.push_back(tree::word(literal(value)));
+        for (const double value : values) items.push_back(real(value));
         return tree::braces("", std::move(items));
     };
     const auto declare = [&](const std::string& type, const char* wish, tree::Expressions items) {
@@ -279,11 +282,11 @@ tree::Expression FunctionBody::near_object(const ir::Clearances& clearances,
         return declare("std::array<" + expressions_.type(ir::Scalar::Real) + ", 0>", wish, {});
     };
     const std::string dimensions = std::to_string(clearances.places.size());
+    const char* const of_reals = program().real == RealType::Float ? ", float" : "";
     tree::Expression grid =
-        declare("rddl::Grid<" + dimensions + ">", "grid",
+        declare("rddl::Grid<" + dimensions + of_reals + ">", "grid",
                 tree::list(reals(clearances.begin), reals(clearances.cells_per_unit),
-                           tree::word(literal(clearances.unit)),
-                           tree::word(literal(clearances.least_move))));
+                           real(clearances.unit), real(clearances.least_move)));
     tree::Expression places = array("places", clearances.places);
     tree::Expression moves = array("moves", clearances.moves);
     return tree::call("rddl::exists_near_object<" + count + ", " +

@@ -4,9 +4,9 @@
 // number of t's size can still be compared with another one. So each end is a line over the
 // parameter, given by its values where the parameter is least and where it is greatest.
 //
-// All rounded values are inside, for reals as doubles that are finite: the rules of interval
-// arithmetic (R. Moore, Interval Analysis, 1966) with ends that are moved outwards by more than the
-// rounding errors.
+// All rounded values are inside, for reals as doubles or floats that are finite: the rules of
+// interval arithmetic (R. Moore, Interval Analysis, 1966) with ends that are moved outwards by more
+// than the rounding errors.
 #pragma once
 
 #include <algorithm>
@@ -27,8 +27,10 @@ struct LineBounds {
 namespace detail {
 
 inline constexpr double infinity = std::numeric_limits<double>::infinity();
-// More than the error of one rounding, of a normal number and of a subnormal one.
-inline constexpr double relative_error = 0x1p-51, absolute_error = 0x1p-1060;
+// More than the error of one rounding to a float, of a normal number and of a subnormal one.
+inline constexpr double relative_error = 0x1p-22, absolute_error = 0x1p-140;
+// Floats below it do not overflow when they are rounded.
+inline constexpr double greatest_finite = 0x1p127;
 
 inline double lower(double value) {
     return std::isnan(value) ? -infinity
@@ -133,8 +135,10 @@ inline LineBounds before_rounding(const LineBounds& a) {
 }
 
 inline bool is_finite(const LineBounds& a) {
-    return std::isfinite(a.low[0]) && std::isfinite(a.low[1]) && std::isfinite(a.high[0]) &&
-           std::isfinite(a.high[1]);
+    const auto is_small = [](double end) {
+        return std::fabs(end) < detail::greatest_finite;
+    };
+    return std::ranges::all_of(a.low, is_small) && std::ranges::all_of(a.high, is_small);
 }
 // For all parameters.
 inline bool is_below(const LineBounds& a, const LineBounds& b) {

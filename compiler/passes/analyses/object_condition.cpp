@@ -49,11 +49,12 @@ struct Making {
     }
 
     // A value for each object, or one for all.
-    static std::optional<Term> constants(std::span<const ir::Value> values) {
+    std::optional<Term> constants(std::span<const ir::Value> values) const {
         Term term{Form::Constant};
         for (const ir::Value& value : values) {
             if (const auto* real = std::get_if<double>(&value))
-                term.constants.push_back(*real);
+                term.constants.push_back(program.real == RealType::Float ? static_cast<float>(*real)
+                                                                         : *real);
             else if (const auto* is = std::get_if<bool>(&value))
                 term.constants.push_back(*is ? 1 : 0);
             else

@@ -32,9 +32,9 @@ constexpr std::int64_t levels[] = {0, 1, 2, 4, 6, 8, 11, 14, 18, 23, 29, 36, 45}
 constexpr std::size_t highest_level = std::size(levels) - 1;
 // A move nearer to 0 has no clearance, so that the proof may neglect how its sum with a place is
 // rounded.
-constexpr double least_move_in_units = 0x1p-20;
+constexpr double least_move_in_units = 0x1p-6;
 // The edges of cells are rounded when a step looks for its cell.
-constexpr double edge = 1e-9;
+constexpr double edge = 0x1p-21;
 // A table pays if so many of its cells have a clearance of a quarter of a cell.
 constexpr double least_share = 0.5;
 constexpr std::int64_t worth_units = 4;
@@ -73,6 +73,7 @@ std::optional<Split> split(const ObjectCondition& condition) {
         result.axes[k].width = width;
         result.unit = std::max(result.unit, width / units_per_cell);
     }
+    result.unit = static_cast<float>(result.unit);
     return result;
 }
 
@@ -125,7 +126,8 @@ class Clearing {
     void look_at(const Place& begin, std::int64_t side) {
         for (std::size_t k = 0; k < begin.size(); ++k) {
             const Axis& axis = split_.axes[k];
-            const double margin = edge * (axis.width + std::fabs(axis.begin));
+            const double margin =
+                edge * (static_cast<double>(split_.cells) * axis.width + std::fabs(axis.begin));
             const auto cell = static_cast<double>(begin[k]);
             bounds_[axis.number] =
                 between(axis.begin + cell * axis.width - margin,
@@ -282,8 +284,6 @@ class Tabulation {
 }  // namespace
 
 ir::Program tabulate_clearances(ir::Program program, Report& report) {
-    // The proofs are about doubles.
-    if (program.real != RealType::Double) return program;
     return Tabulation(std::move(program), report).run();
 }
 

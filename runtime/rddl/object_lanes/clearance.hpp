@@ -16,11 +16,11 @@
 namespace rddl {
 
 // As many cells in each dimension, of one width.
-template <std::size_t dimensions>
+template <std::size_t dimensions, class R = double>
 struct Grid {
-    std::array<double, dimensions> begin, cells_per_unit;
-    double clearance_unit;  // the clearances are multiples of it
-    double least_move;      // a move that is nearer to 0 has no clearance
+    std::array<R, dimensions> begin, cells_per_unit;
+    R clearance_unit;  // the clearances are multiples of it
+    R least_move;      // a move that is nearer to 0 has no clearance
 };
 
 namespace detail {
@@ -40,9 +40,17 @@ RDDL_INLINE Lanes<std::int64_t, n> clearance_of(const Lanes<std::int64_t, n>& ce
         cell);
 }
 
+template <class R, class Int>
+RDDL_INLINE auto real_of(const Int& a) {
+    if constexpr (std::is_same_v<R, float>)
+        return to_float(a);
+    else
+        return to_real(a);
+}
+
 // Whether objects may matter at the place: a bool, or one for each lane.
-template <const auto& clearances, class Real, std::size_t dimensions, std::size_t moves>
-RDDL_INLINE auto is_near(const Grid<dimensions>& grid, const std::array<Real, dimensions>& place,
+template <const auto& clearances, class R, class Real, std::size_t dimensions, std::size_t moves>
+RDDL_INLINE auto is_near(const Grid<dimensions, R>& grid, const std::array<Real, dimensions>& place,
                          const std::array<Real, moves>& move) {
     constexpr auto cells = static_cast<std::int64_t>(clearances.size());
     using Int = decltype(truncate_to_int(place[0]));
@@ -50,12 +58,12 @@ RDDL_INLINE auto is_near(const Grid<dimensions>& grid, const std::array<Real, di
     Int cell{0};
     for (std::size_t k = 0; k < dimensions; ++k) {
         const Real at = (place[k] - grid.begin[k]) * grid.cells_per_unit[k];
-        const auto is_inside = at >= 0.0 && at < static_cast<double>(cells);
-        cell = cell * Int{cells} + truncate_to_int(select(is_inside, at, Real{0.0}));
+        const auto is_inside = at >= R{0} && at < static_cast<R>(cells);
+        cell = cell * Int{cells} + truncate_to_int(select(is_inside, at, Real{0}));
         is_clear = is_clear && is_inside;
     }
-    const Real clearance = to_real(clearance_of<clearances>(cell)) * grid.clearance_unit;
-    if constexpr (moves == 0) is_clear = is_clear && clearance > 0.0;
+    const Real clearance = real_of<R>(clearance_of<clearances>(cell)) * grid.clearance_unit;
+    if constexpr (moves == 0) is_clear = is_clear && clearance > R{0};
     for (const Real& each : move) {
         const Real distance = absolute(each);
         is_clear = is_clear && distance < clearance && distance >= grid.least_move;
@@ -82,7 +90,7 @@ RDDL_INLINE bool exists_here(Context<ScalarOf<R>>& context, const Place& place, 
 // object at least of [0, count). Environments of a pack that are near are looked at one by one.
 template <Index count, const auto& clearances, class R, std::size_t dimensions, std::size_t moves,
           class Body>
-RDDL_INLINE bool exists_near_object(Context<ScalarOf<R>>& context, const Grid<dimensions>& grid,
+RDDL_INLINE bool exists_near_object(Context<ScalarOf<R>>& context, const Grid<dimensions, R>& grid,
                                     const std::array<R, dimensions>& place,
                                     const std::array<R, moves>& move, Body&& body) {
     if (!detail::is_near<clearances>(grid, place, move)) return false;
@@ -90,7 +98,8 @@ RDDL_INLINE bool exists_near_object(Context<ScalarOf<R>>& context, const Grid<di
 }
 template <Index count, const auto& clearances, int n, class R, std::size_t dimensions,
           std::size_t moves, class Body>
-RDDL_INLINE Mask<n> exists_near_object(Context<Pack<n, R>>& context, const Grid<dimensions>& grid,
+RDDL_INLINE Mask<n> exists_near_object(Context<Pack<n, R>>& context,
+                                       const Grid<dimensions, R>& grid,
                                        const std::array<Lanes<R, n>, dimensions>& place,
                                        const std::array<Lanes<R, n>, moves>& move, Body&& body) {
     Mask<n> found{false};

@@ -165,6 +165,14 @@ RDDL_INLINE Lanes<R, n> uniform_at(Context<Pack<n, R>>& context, Place place) {
     return recent.numbers[place.index - recent.first];
 }
 
+// The number of one of two draws of a loop: no others are made.
+template <int n, class R, std::same_as<PlaceAmong<2>> AmongTwo>
+RDDL_INLINE Lanes<R, n> uniform_at(Context<Pack<n, R>>& context, AmongTwo place) {
+    const auto& recent = context.recent[place.series % recent_series];
+    if (!recent.has(place)) refill<2>(context, place.series, place.index);
+    return recent.numbers[place.index - recent.first];
+}
+
 // The number of a draw that is made once in a step, where it is used.
 template <int n, class R, std::same_as<LonePlace> Lone>
 RDDL_INLINE Lanes<R, n> uniform_at(Context<Pack<n, R>>& context, Lone place) {

@@ -48,6 +48,13 @@ inline constexpr bool takes_bools_as_given = [] {
     return false;
 }();
 
+// Callers' rows come from memory, and the loads that transpose them hide from hardware prefetchers
+// that they are read one after the other.
+RDDL_INLINE void prefetch_rows(const std::byte* next, std::int64_t size) {
+    constexpr std::int64_t distance = 2048, line = 64;
+    for (std::int64_t k = distance; k < distance + size; k += line) __builtin_prefetch(next + k);
+}
+
 // `room` is for a block that is not a row.
 template <Engine E, class L>
 RDDL_ALWAYS_INLINE const std::byte* action_of_block(const E& engine, const Blocks<L>& blocks,
@@ -60,10 +67,13 @@ RDDL_ALWAYS_INLINE const std::byte* action_of_block(const E& engine, const Block
         if (takes_bools_as_given<E> || has_plain_bools(columns, actions.rows + first))
             return actions.rows + first;
     }
-    if (actions.block)
+    if (actions.block) {
         copy_action(engine, actions.block, room);
-    else
+    } else {
+        if constexpr (L::width > 1)
+            prefetch_rows(actions.rows + first, L::width * columns.row_size);
         read_records(L{}, columns, actions.rows + first, L::width, room);
+    }
     return room;
 }
 

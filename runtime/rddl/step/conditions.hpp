@@ -24,6 +24,17 @@ class Terminations {
     typename L::Bool hold_{false};
 };
 
+// The same bools. Compilers make one chain of all comparisons, of which each waits for the mask of
+// the one before; the comparisons of two conditions stay apart.
+inline bool apart(bool holds) {
+    return holds;
+}
+template <int n>
+RDDL_INLINE Mask<n> apart(Mask<n> holds) {
+    if (!__builtin_constant_p(holds.bits)) asm("" : "+r"(holds.bits));
+    return holds;
+}
+
 // Invariants after one that does not hold, or that faults, are not evaluated: they cannot fault.
 template <class L>
 class Invariants {
@@ -40,7 +51,7 @@ class Invariants {
         }
     }
     RDDL_INLINE void add(typename L::Bool holds) {
-        violated_ = violated_ || !holds || context_.faulted();
+        violated_ = violated_ || !apart(holds) || context_.faulted();
     }
     RDDL_INLINE typename L::Bool violated() {
         if constexpr (L::width > 1) context_.active = active_;

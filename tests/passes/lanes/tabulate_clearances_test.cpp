@@ -58,18 +58,23 @@ const char* const crosses =
     " (((Y2(?w) - Y1(?w)) * (x - X2(?w)) - (X2(?w) - X1(?w)) * (y - Y2(?w)) > 0.0) ~="
     "  ((Y2(?w) - Y1(?w)) * ((x + dx) - X2(?w)) - (X2(?w) - X1(?w)) * ((y + dy) - Y2(?w)) > 0.0)))";
 
-bool is_crossed(const Wall& w, double x, double y, double dx, double dy) {
-    const auto is_left = [&](double px, double py) {
-        return dy * (px - (x + dx)) - dx * (py - (y + dy)) > 0.0;
+template <class R>
+bool is_crossed(const Wall& w, R x, R y, R dx, R dy) {
+    const R x1 = static_cast<R>(w.x1), y1 = static_cast<R>(w.y1), x2 = static_cast<R>(w.x2),
+            y2 = static_cast<R>(w.y2);
+    const auto is_left = [&](R px, R py) {
+        return dy * (px - (x + dx)) - dx * (py - (y + dy)) > 0;
     };
-    const auto is_above = [&](double px, double py) {
-        return (w.y2 - w.y1) * (px - w.x2) - (w.x2 - w.x1) * (py - w.y2) > 0.0;
+    const auto is_above = [&](R px, R py) {
+        return (y2 - y1) * (px - x2) - (x2 - x1) * (py - y2) > 0;
     };
-    return is_left(w.x1, w.y1) != is_left(w.x2, w.y2) && is_above(x, y) != is_above(x + dx, y + dy);
+    return is_left(x1, y1) != is_left(x2, y2) && is_above(x, y) != is_above(x + dx, y + dy);
 }
 
-ir::Program with_clearances(const Problem& problem, passes::Report& report) {
+ir::Program with_clearances(const Problem& problem, passes::Report& report,
+                            RealType real = RealType::Double) {
     ir::Program program = grounded_with_many(problem);
+    program.real = real;
     for (const Pass pass :
          {passes::evaluate_together, passes::quantify_together, passes::tabulate_clearances})
         program = valid(pass(std::move(program), report));
@@ -87,16 +92,19 @@ const ir::Clearances& clearances_of(const ir::Program& program) {
 }
 
 // The clearance that rddl/object_lanes/clearance.hpp looks up; 0 outside.
-double clearance_at(const ir::Program& program, const ir::Clearances& clearances,
-                    const std::vector<double>& place) {
+template <class R>
+R clearance_at(const ir::Program& program, const ir::Clearances& clearances,
+               const std::vector<R>& place) {
     const ir::Buffer& table = program[clearances.table];
     std::int64_t cell = 0;
     for (std::size_t k = 0; k < place.size(); ++k) {
-        const double at = (place[k] - clearances.begin[k]) * clearances.cells_per_unit[k];
-        if (!(at >= 0 && at < static_cast<double>(table.shape[k]))) return 0;
+        const R at = (place[k] - static_cast<R>(clearances.begin[k])) *
+                     static_cast<R>(clearances.cells_per_unit[k]);
+        if (!(at >= 0 && at < static_cast<R>(table.shape[k]))) return 0;
         cell = cell * table.shape[k] + static_cast<std::int64_t>(at);
     }
-    return static_cast<double>(std::get<std::int64_t>(table.values[cell])) * clearances.unit;
+    return static_cast<R>(std::get<std::int64_t>(table.values[cell])) *
+           static_cast<R>(clearances.unit);
 }
 
 TEST(TabulateClearances, KnowsHowFarTheWallsAre) {
@@ -111,30 +119,33 @@ TEST(TabulateClearances, KnowsHowFarTheWallsAre) {
 }
 
 // Beside a wall, and where its line goes on, also with moves that are nearly along it.
-TEST(TabulateClearances, IsRightNearAndFar) {
+template <class R>
+void step_near_and_far(RealType real, int trials) {
     passes::Report report;
-    const ir::Program program = with_clearances(with_walls(crosses), report);
+    const ir::Program program = with_clearances(with_walls(crosses), report, real);
     const ir::Clearances clearances = clearances_of(program);
     std::mt19937_64 random(7);
     const auto number = [&](double low, double high) {
-        return std::uniform_real_distribution(low, high)(random);
+        return static_cast<R>(std::uniform_real_distribution(low, high)(random));
     };
     int clear_count = 0, crossed_count = 0;
-    for (int trial = 0; trial < 400'000; ++trial) {
+    for (int trial = 0; trial < trials; ++trial) {
         const Wall& wall = walls[random() % walls.size()];
-        const double along = number(-1.5, 2.5), beside = std::ldexp(number(-1, 1), -(trial % 50));
-        const double x =
-            trial % 3 == 0 ? number(0, 4) : wall.x1 + along * (wall.x2 - wall.x1) + beside;
-        const double y =
-            trial % 3 == 0 ? number(0, 4) : wall.y1 + along * (wall.y2 - wall.y1) + beside;
-        const double clearance = clearance_at(program, clearances, {x, y});
+        const R along = number(-1.5, 2.5), beside = std::ldexp(number(-1, 1), -(trial % 50));
+        const auto on_line = [&](double begin, double end) {
+            return static_cast<R>(begin + along * (end - begin) + beside);
+        };
+        const R x = trial % 3 == 0 ? number(0, 4) : on_line(wall.x1, wall.x2);
+        const R y = trial % 3 == 0 ? number(0, 4) : on_line(wall.y1, wall.y2);
+        const R clearance = clearance_at<R>(program, clearances, {x, y});
         const double longest = clearance > 0 && trial % 2 == 0 ? clearance : 0.3;
-        double dx = number(-longest, longest), dy = number(-longest, longest);
+        R dx = number(-longest, longest), dy = number(-longest, longest);
         if (trial % 5 == 1) dx = std::ldexp(dx, -static_cast<int>(random() % 40));
         if (trial % 5 == 2) dy = std::ldexp(dy, -static_cast<int>(random() % 40));
         if (trial % 7 == 0) dy = -2 * beside;
-        const bool is_clear = std::max(std::fabs(dx), std::fabs(dy)) < clearance &&
-                              std::min(std::fabs(dx), std::fabs(dy)) >= clearances.least_move;
+        const bool is_clear =
+            std::max(std::fabs(dx), std::fabs(dy)) < clearance &&
+            std::min(std::fabs(dx), std::fabs(dy)) >= static_cast<R>(clearances.least_move);
         const bool is_hit = std::ranges::any_of(
             walls, [&](const Wall& each) { return is_crossed(each, x, y, dx, dy); });
         clear_count += is_clear;
@@ -142,8 +153,13 @@ TEST(TabulateClearances, IsRightNearAndFar) {
         ASSERT_FALSE(is_clear && is_hit)
             << x << ' ' << y << ' ' << dx << ' ' << dy << ' ' << clearance;
     }
-    EXPECT_GT(clear_count, 50'000);
-    EXPECT_GT(crossed_count, 30'000);
+    EXPECT_GT(clear_count, trials / 10);
+    EXPECT_GT(crossed_count, trials / 15);
+}
+
+TEST(TabulateClearances, IsRightNearAndFar) {
+    step_near_and_far<double>(RealType::Double, 300'000);
+    step_near_and_far<float>(RealType::Float, 100'000);
 }
 
 TEST(TabulateClearances, NeedsNoMoves) {
@@ -155,8 +171,8 @@ TEST(TabulateClearances, NeedsNoMoves) {
         report);
     const ir::Clearances& clearances = clearances_of(program);
     EXPECT_TRUE(clearances.moves.empty());
-    EXPECT_EQ(clearance_at(program, clearances, {0.1, 0.1}), 0);
-    EXPECT_GT(clearance_at(program, clearances, {2.0, 1.9}), 0);
+    EXPECT_EQ(clearance_at<double>(program, clearances, {0.1, 0.1}), 0);
+    EXPECT_GT(clearance_at<double>(program, clearances, {2.0, 1.9}), 0);
 }
 
 // A difference of infinities is not a number, for which no comparison but `~=` is true.

@@ -170,8 +170,15 @@ TEST(Packs, DrawNormalsOfNeighboursTogether) {
                     const auto drawn =
                         sample::normal(together, PlaceAmong<count>(0, i % count, series), 2.0, 3.0);
                     const auto expected = sample::normal(alone, place, 2.0, 3.0);
-                    for (int lane = 0; lane < width; ++lane)
+                    const Place next(1, i % count, series + 1);
+                    const auto number =
+                        uniform_at(together, PlaceAmong<count>(1, i % count, series + 1));
+                    const auto expected_number = uniform_at(alone, next);
+                    for (int lane = 0; lane < width; ++lane) {
                         ASSERT_EQ(drawn[lane], expected[lane]) << count << ": " << i % count;
+                        ASSERT_EQ(number[lane], expected_number[lane])
+                            << count << ": " << i % count;
+                    }
                 }
         }
     };

@@ -5,12 +5,14 @@
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <type_traits>
 
 namespace rddl {
 namespace {
 
 constexpr Index count = 11;
-constexpr Grid<2> grid{{-1.0, 2.0}, {4.0, 2.0}, 0.125, 0.01};
+template <class R>
+constexpr Grid<2, R> grid{{-1, 2}, {4, 2}, R{0.125}, static_cast<R>(0.01)};
 
 // Cell (i, j) has clearance i + j, in units of the grid.
 constexpr auto steps = [] {
@@ -19,16 +21,19 @@ constexpr auto steps = [] {
         for (std::size_t j = 0; j < 8; ++j) table[i][j] = static_cast<std::uint8_t>(i + j);
     return table;
 }();
-constexpr std::array<double, count> levels = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10};
+template <class R>
+constexpr std::array<R, count> levels = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10};
 
 // True of the last object alone, wherever it is looked at.
 constexpr auto is_last = [](auto&, auto object, const auto&, const auto&, const auto& move) {
-    return move < 0.5 && at(levels, object) > 9.5;
+    using R = std::remove_cvref_t<decltype(move)>;
+    return move < R{0.5} && at(levels<R>, object) > R{9.5};
 };
 
-bool exists(double x, double y, double move) {
-    Context<Scalar> context{};
-    return exists_near_object<count, steps>(context, grid, std::array{x, y}, std::array{move},
+template <class R>
+bool exists(R x, R y, R move) {
+    Context<ScalarOf<R>> context{};
+    return exists_near_object<count, steps>(context, grid<R>, std::array{x, y}, std::array{move},
                                             is_last);
 }
 
@@ -47,24 +52,30 @@ TEST(Clearance, LooksAtObjectsWhereAMoveIsTooLong) {
 }
 
 // Each lane has the bool that it has alone.
-TEST(Clearance, LooksAtTheLanesThatAreNear) {
-    using Reals = Lanes<double, 16>;
-    auto packs =
-        Context<Pack<16>>::of(Pack<16>::Word{7}, Pack<16>::Word{9}, Pack<16>::Word{1}, true);
+template <class R>
+void compare_lanes() {
+    using Reals = Lanes<R, 16>;
+    using Packs = Pack<16, R>;
+    using Word = typename Packs::Word;
+    auto packs = Context<Packs>::of(Word{7}, Word{9}, Word{1}, true);
     for (int offset = 0; offset < 50; ++offset) {
-        double x[16], y[16], move[16];
+        R x[16], y[16], move[16];
         for (int k = 0; k < 16; ++k) {
-            x[k] = -1.2 + 0.01 * (k * 17 + offset);
-            y[k] = 1.9 + 0.05 * (k * 7 % 16) * offset / 10;
-            move[k] = 0.04 * (offset % 20) - 0.01 * k;
+            x[k] = static_cast<R>(-1.2 + 0.01 * (k * 17 + offset));
+            y[k] = static_cast<R>(1.9 + 0.05 * (k * 7 % 16) * offset / 10);
+            move[k] = static_cast<R>(0.04 * (offset % 20) - 0.01 * k);
         }
         const Mask<16> found = exists_near_object<count, steps>(
-            packs, grid, std::array{Reals::load(x), Reals::load(y)}, std::array{Reals::load(move)},
-            is_last);
+            packs, grid<R>, std::array{Reals::load(x), Reals::load(y)},
+            std::array{Reals::load(move)}, is_last);
         for (int k = 0; k < 16; ++k)
             EXPECT_EQ((found.bits >> k & 1) != 0, exists(x[k], y[k], move[k]))
                 << x[k] << ' ' << y[k] << ' ' << move[k];
     }
+}
+TEST(Clearance, LooksAtTheLanesThatAreNear) {
+    compare_lanes<double>();
+    compare_lanes<float>();
 }
 
 }  // namespace
