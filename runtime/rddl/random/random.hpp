@@ -277,28 +277,30 @@ RDDL_INLINE R uniform_at(Context<ScalarOf<R>>& context, Place place) {
 
 // A register has the numbers of so many neighbouring sites, whose indices are the same up to the
 // last bit.
-inline constexpr std::uint32_t sites_at_once = simd::lanes_of<std::uint64_t>;
+template <class R>
+inline constexpr std::uint32_t sites_at_once = simd::lanes_of<R>;
 inline constexpr std::uint32_t kind_of_sites = 3;  // no standard distribution has it
 
 template <class R>
 [[gnu::noinline]] void refill_sites(Context<ScalarOf<R>>& context, std::uint32_t chunk,
                                     std::uint32_t pair) {
-    using Word = Lanes<std::uint64_t, sites_at_once>;
-    const Word first{std::uint64_t{chunk} * sites_at_once};
+    using Word = Lanes<std::uint64_t, sites_at_once<R>>;
+    const Word first{std::uint64_t{chunk} * sites_at_once<R>};
     const auto made = first_numbers<R, Word>(
         Word{std::uint64_t{context.step}},
-        first + Word::load(detail::lane_numbers<sites_at_once>.data()), Word{std::uint64_t{pair}},
+        first + Word::load(detail::lane_numbers<sites_at_once<R>>.data()),
+        Word{std::uint64_t{pair}},
         {Word{std::uint64_t{context.key.low}}, Word{std::uint64_t{context.key.high}}});
     keep<Uniform>(context, chunk, kind_of_sites, pair, made);
 }
 template <class R, std::same_as<PlaceAmongSites> Among>
 RDDL_INLINE R uniform_at(Context<ScalarOf<R>>& context, Among place) {
-    const std::uint32_t chunk = place.series / sites_at_once, pair = place.index / 2;
+    const std::uint32_t chunk = place.series / sites_at_once<R>, pair = place.index / 2;
     const auto& recent = context.recent[(chunk + kind_of_sites) % recent_series];
     const bool is_there =
         recent.series == chunk && recent.kind == kind_of_sites && recent.chunk == pair;
     if (!is_there) refill_sites(context, chunk, pair);
-    return recent.numbers[place.index % 2][place.series % sites_at_once];
+    return recent.numbers[place.index % 2][place.series % sites_at_once<R>];
 }
 
 // The standard normals of the indices from `first` up to `end`, at most so many that they are kept.
