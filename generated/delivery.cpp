@@ -145,7 +145,7 @@ struct Simulator {
     template <class L>
     static void set_sky(const State<L>& state, State<L>& next, rddl::Context<L>& context) {
         next.sky = rddl::sample::discrete_over(
-            context, {0, 0}, weather_count, [&](rddl::Index tomorrow) {
+            context, rddl::LonePlace{0, 0}, weather_count, [&](rddl::Index tomorrow) {
                 return rddl::at(CHANGE_, state.sky, tomorrow);
             });
     }

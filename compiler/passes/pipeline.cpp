@@ -37,7 +37,6 @@
 #include "passes/lanes/read_places.hpp"
 #include "passes/lanes/separate_aggregations.hpp"
 #include "passes/lanes/separate_counts.hpp"
-#include "passes/lanes/separate_draws.hpp"
 #include "passes/lanes/tabulate_clearances.hpp"
 #include "passes/lanes/test_cheap_first.hpp"
 #include "passes/lanes/test_equalities_first.hpp"
@@ -273,12 +272,6 @@ constexpr Pass in_order[] = {
      "constants that decide which objects reach an expression are known there",
      {"read_places"},
      "it has made tables of places, which may become fewer"},
-    {"separate_draws",
-     Phase::Lanes,
-     separate_draws,
-     "loops over bools leave their draws to tables, to run over words of bools",
-     {"merge_draws", "read_places"},
-     "a loop has to read all its bools in words before its draws are worth a table"},
     {"separate_aggregations",
      Phase::Lanes,
      separate_aggregations,

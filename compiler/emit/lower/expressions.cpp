@@ -205,7 +205,7 @@ std::string Expressions::weights_type(const ir::Discrete& discrete) {
 
 Expression Expressions::discrete_call(const ir::Discrete& discrete, Expression weights) {
     const std::string function = discrete.normalise ? "unnormalised_discrete" : "discrete";
-    tree::Expressions arguments = place(discrete.place);
+    tree::Expressions arguments = place_of_draw(discrete.place);
     arguments.push_back(std::move(weights));
     return tree::call("rddl::sample::" + function, std::move(arguments));
 }
@@ -248,11 +248,10 @@ Expression Expressions::call(std::string_view function, const std::vector<ir::No
 
 tree::Expressions Expressions::place_of_draw(const ir::Place& place,
                                              std::optional<Distribution> distribution) {
-    const bool may_be_lone = !distribution || distribution == Distribution::Bernoulli ||
-                             distribution == Distribution::Normal;
-    const bool is_lone =
-        may_be_lone && unit_.has_few_lone_draws && !several_ && unit_.is_lone(place);
-    if (is_lone) return this->place(place, "rddl::LonePlace");
+    const bool takes_one_number = !distribution || is_by_inversion(*distribution);
+    if (takes_one_number && !several_ && unit_.is_lone(place))
+        return this->place(
+            place, unit_.is_among_sites(place) ? "rddl::PlaceAmongSites" : "rddl::LonePlace");
     // Packs make the normals of neighbours together, and of other numbers those of two objects
     // alone.
     constexpr std::int64_t any = std::numeric_limits<std::int64_t>::max();
@@ -329,7 +328,7 @@ tree::Expressions Expressions::binder_arguments(const ir::Node& binder) {
         return {word(several_->context), range(*reduce)};
     }
     const auto& discrete = std::get<ir::DiscreteOver>(binder.form);
-    tree::Expressions arguments = place(discrete.place);
+    tree::Expressions arguments = place_of_draw(discrete.place);
     arguments.push_back(word(unit_.size_of(unit_.program[discrete.variable])));
     return arguments;
 }

@@ -150,8 +150,8 @@ class Expressions {
     tree::Expressions all_of(std::span<const ir::NodeId> operands);
     // The context and the place of a draw or a fault.
     tree::Expressions place(const ir::Place& place, const std::string& type = "");
-    // "rddl::LonePlace" for one of a few draws that a step makes once. No distribution: an
-    // interval.
+    // "rddl::LonePlace" for a draw that a step makes once, "rddl::PlaceAmongSites" for one of many.
+    // No distribution: one of weights or thresholds.
     tree::Expressions place_of_draw(const ir::Place& place,
                                     std::optional<Distribution> distribution = {});
     // "rddl::PlaceAmong<c_count>" in a loop over the objects of its scope, if there are at most so

@@ -5,16 +5,20 @@
 #include "support/match.hpp"
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <iterator>
 #include <variant>
 
 namespace rddlc::cpp {
 
 namespace {
 
-// More of them would make much machine code.
-constexpr std::int64_t most_lone_draws = 4;
+// Sites whose numbers lie in one register (sites_at_once in rddl/random/random.hpp), with AVX-512.
+constexpr std::uint32_t sites_of_register = 8;
+// A processor makes the numbers of so many sites side by side without one.
+constexpr std::ptrdiff_t most_alone = 3;
 
 // If its operands are.
 bool keeps_uniform(const ir::Program& program, const ir::Node& node) {
@@ -37,7 +41,7 @@ Unit::Unit(const ir::Program& the_program, const Sources& the_sources,
       uniform_ints(the_program.nodes.size(), false),
       contains_branch(the_program.nodes.size(), false),
       tests_action_bools(ir::tests_action_bools(the_program)),
-      has_few_lone_draws(count_lone_draws() <= most_lone_draws) {
+      lone_series_(series_of_lone_draws()) {
     for (std::size_t index = 0; index < program.nodes.size(); ++index) {
         const ir::Node& node = program.nodes[index];
         const std::vector<ir::NodeId> operands = ir::operands_of(node);
@@ -52,17 +56,32 @@ Unit::Unit(const ir::Program& the_program, const Sources& the_sources,
     }
 }
 
-std::int64_t Unit::count_lone_draws() const {
-    return std::ranges::count_if(program.nodes, [&](const ir::Node& node) {
-        return match(
-            node.form, [&](const ir::Sample& sample) { return is_lone(sample.place); },
-            [&](const ir::Interval& interval) { return is_lone(interval.place); },
-            [](const auto&) { return false; });
-    });
+std::set<std::uint32_t> Unit::series_of_lone_draws() const {
+    std::set<std::uint32_t> all;
+    const auto add = [&](const ir::Place& place) {
+        if (is_lone(place)) all.insert(program.series_of(place.site).index);
+    };
+    for (const ir::Node& node : program.nodes)
+        match(
+            node.form,
+            [&](const ir::Sample& sample) {
+                if (is_by_inversion(sample.distribution)) add(sample.place);
+            },
+            [&](const ir::Interval& interval) { add(interval.place); },
+            [&](const ir::Discrete& discrete) { add(discrete.place); },
+            [&](const ir::DiscreteOver& discrete) { add(discrete.place); }, [](const auto&) {});
+    return all;
 }
 
 bool Unit::is_lone(const ir::Place& place) const {
     return std::holds_alternative<ir::Constant>(program[place.index].form);
+}
+
+bool Unit::is_among_sites(const ir::Place& place) const {
+    const std::uint32_t series = program.series_of(place.site).index;
+    const std::uint32_t first = series / sites_of_register * sites_of_register;
+    return std::distance(lone_series_.lower_bound(first),
+                         lone_series_.lower_bound(first + sites_of_register)) > most_alone;
 }
 
 std::string Unit::size_of(const ir::Variable& variable) const {

@@ -8,6 +8,8 @@
 #include "ir/ir.hpp"
 #include "support/source.hpp"
 
+#include <cstdint>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -24,7 +26,6 @@ struct Unit {
     std::vector<bool> uniform_ints;          // by NodeId; is_uniform tells
     std::vector<bool> contains_branch;       // by NodeId: it branches, or has what does inside
     bool tests_action_bools;                 // ir/action_bools.hpp
-    bool has_few_lone_draws;                 // whose numbers are made where they are used
 
     const ir::Properties& properties_of(ir::NodeId id) const { return properties[id.index]; }
 
@@ -41,9 +42,14 @@ struct Unit {
 
     // A draw that is made once in a step, not in a loop.
     bool is_lone(const ir::Place& place) const;
+    // Whether a step makes so many draws of neighbouring sites once that one environment makes
+    // their numbers in a register.
+    bool is_among_sites(const ir::Place& place) const;
 
   private:
-    std::int64_t count_lone_draws() const;
+    std::set<std::uint32_t> series_of_lone_draws() const;
+
+    std::set<std::uint32_t> lone_series_;
 };
 
 }  // namespace rddlc::cpp

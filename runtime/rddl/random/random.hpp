@@ -87,12 +87,10 @@ struct TwoDraws {
 };
 
 template <class R, class Word>
-RDDL_INLINE auto first_numbers(Word step, std::uint32_t series, Word block_number,
+RDDL_INLINE auto first_numbers(Word step, Word series, Word block_number,
                                const philox::Key<Word>& key) {
     const philox::Block<Word> words = philox::generate<philox::draw_rounds>(
-        philox::Block<Word>{step, Word{std::uint64_t{series}}, block_number,
-                            Word{std::uint64_t{0}}},
-        key);
+        philox::Block<Word>{step, series, block_number, Word{std::uint64_t{0}}}, key);
     const auto even = unit_real<R>(words[0], words[1]);
     const auto odd = unit_real<R>(words[2], words[3]);
     return TwoDraws<std::remove_const_t<decltype(even)>>{even, odd};
@@ -173,13 +171,14 @@ RDDL_INLINE Lanes<R, n> uniform_at(Context<Pack<n, R>>& context, AmongTwo place)
     return recent.numbers[place.index - recent.first];
 }
 
-// The number of a draw that is made once in a step, where it is used.
+// The number of a draw that is made once in a step, where it is used. More lanes do not fit into
+// the processor's registers.
 template <int n, class R, std::same_as<LonePlace> Lone>
-RDDL_INLINE Lanes<R, n> uniform_at(Context<Pack<n, R>>& context, Lone place) {
+requires(n <= 16) RDDL_INLINE Lanes<R, n> uniform_at(Context<Pack<n, R>>& context, Lone place) {
     using Word = Lanes<std::uint64_t, n>;
-    const auto numbers =
-        first_numbers<R, Word>(context.step, place.series, Word{std::uint64_t{place.index / 2}},
-                               {context.key_low, context.key_high});
+    const auto numbers = first_numbers<R, Word>(context.step, Word{std::uint64_t{place.series}},
+                                                Word{std::uint64_t{place.index / 2}},
+                                                {context.key_low, context.key_high});
     const auto& random = place.index % 2 == 0 ? numbers.even : numbers.odd;
     const Mask<n> are_medians = is_median_key(context.key_low, context.key_high);
     if (any(are_medians)) return select(are_medians, Lanes<R, n>{R(median_number)}, random);
@@ -241,6 +240,20 @@ template <class Standard, class R>
 inline constexpr int pairs_at_once =
     Standard::kind == Uniform::kind ? simd::lanes_of<R> : Context<ScalarOf<R>>::most_pairs;
 
+// Keeps the numbers of a register of pairs.
+template <class Standard, class R, class Real>
+RDDL_INLINE void keep(Context<ScalarOf<R>>& context, std::uint32_t series, std::uint32_t kind,
+                      std::uint32_t chunk, const TwoDraws<Real>& made) {
+    auto& recent = context.recent[(series + kind) % recent_series];
+    recent.series = series;
+    recent.kind = kind;
+    recent.chunk = chunk;
+    const Real median{R(median_number)};
+    const bool is_median = context.key == median_key;
+    Standard::of(is_median ? median : made.even).store(recent.numbers[0]);
+    Standard::of(is_median ? median : made.odd).store(recent.numbers[1]);
+}
+
 template <class Standard, class R>
 [[gnu::noinline]] void refill(Context<ScalarOf<R>>& context, std::uint32_t series,
                               std::uint32_t chunk) {
@@ -248,18 +261,10 @@ template <class Standard, class R>
     using Word = Lanes<std::uint64_t, lanes>;
     const Word first{std::uint64_t{chunk} * lanes};
     const auto made = first_numbers<R, Word>(
-        Word{std::uint64_t{context.step}}, series,
+        Word{std::uint64_t{context.step}}, Word{std::uint64_t{series}},
         first + Word::load(detail::lane_numbers<lanes>.data()),
         {Word{std::uint64_t{context.key.low}}, Word{std::uint64_t{context.key.high}}});
-    auto& recent = context.recent[(series + Standard::kind) % recent_series];
-    recent.series = series;
-    recent.kind = Standard::kind;
-    recent.chunk = chunk;
-    using Real = std::remove_const_t<decltype(made.even)>;
-    const Real median{R(median_number)};
-    const bool is_median = context.key == median_key;
-    Standard::of(is_median ? median : made.even).store(recent.numbers[0]);
-    Standard::of(is_median ? median : made.odd).store(recent.numbers[1]);
+    keep<Standard>(context, series, Standard::kind, chunk, made);
 }
 
 template <class Standard, class R>
@@ -276,6 +281,34 @@ RDDL_INLINE R recent_number(Context<ScalarOf<R>>& context, Place place) {
 template <class R>
 RDDL_INLINE R uniform_at(Context<ScalarOf<R>>& context, Place place) {
     return recent_number<Uniform>(context, place);
+}
+
+// A register has the numbers of so many neighbouring sites, whose indices are the same up to the
+// last bit.
+template <class R>
+inline constexpr std::uint32_t sites_at_once = simd::lanes_of<R>;
+inline constexpr std::uint32_t kind_of_sites = 3;  // no standard distribution has it
+
+template <class R>
+[[gnu::noinline]] void refill_sites(Context<ScalarOf<R>>& context, std::uint32_t chunk,
+                                    std::uint32_t pair) {
+    using Word = Lanes<std::uint64_t, sites_at_once<R>>;
+    const Word first{std::uint64_t{chunk} * sites_at_once<R>};
+    const auto made = first_numbers<R, Word>(
+        Word{std::uint64_t{context.step}},
+        first + Word::load(detail::lane_numbers<sites_at_once<R>>.data()),
+        Word{std::uint64_t{pair}},
+        {Word{std::uint64_t{context.key.low}}, Word{std::uint64_t{context.key.high}}});
+    keep<Uniform>(context, chunk, kind_of_sites, pair, made);
+}
+template <class R, std::same_as<PlaceAmongSites> Among>
+RDDL_INLINE R uniform_at(Context<ScalarOf<R>>& context, Among place) {
+    const std::uint32_t chunk = place.series / sites_at_once<R>, pair = place.index / 2;
+    const auto& recent = context.recent[(chunk + kind_of_sites) % recent_series];
+    const bool is_there =
+        recent.series == chunk && recent.kind == kind_of_sites && recent.chunk == pair;
+    if (!is_there) refill_sites(context, chunk, pair);
+    return recent.numbers[place.index % 2][place.series % sites_at_once<R>];
 }
 
 // The standard normals of the indices from `first` up to `end`, at most so many that they are kept.
@@ -310,7 +343,9 @@ requires(n > 1 && n <= 16 && requires {
 // registers, unless the compiler sees that the draw has no neighbours.
 template <class Standard, class L, class SomePlace>
 RDDL_INLINE typename L::Real standard_at(Context<L>& context, SomePlace place) {
-    if constexpr (L::width == 1 && !std::is_same_v<SomePlace, LonePlace>)
+    constexpr bool is_lone =
+        std::is_same_v<SomePlace, LonePlace> || std::is_same_v<SomePlace, PlaceAmongSites>;
+    if constexpr (L::width == 1 && !is_lone)
         if (!__builtin_constant_p(place.index)) return recent_number<Standard>(context, place);
     return Standard::of(uniform_at(context, place));
 }
@@ -326,8 +361,8 @@ struct StepDraws {
     bool are_medians;
 };
 
-template <class L>
-RDDL_INLINE typename L::Real open_uniform_at(Context<L>& context, Place place) {
+template <class L, class SomePlace = Place>
+RDDL_INLINE typename L::Real open_uniform_at(Context<L>& context, SomePlace place) {
     return open_unit_real(uniform_at(context, place));
 }
 

@@ -32,6 +32,12 @@ struct LonePlace : Place {
     using Place::Place;
 };
 
+// The same for one of many such draws: those of neighbouring sites are most likely wanted as
+// well.
+struct PlaceAmongSites : Place {
+    using Place::Place;
+};
+
 // The place of one of `count` draws that a loop makes: its neighbours' numbers are most likely
 // wanted as well.
 template <Index count>

@@ -75,10 +75,11 @@ TEST(Interval, IsTheNumberOfThresholdsThatTheUniformNumberReaches) {
     }
 }
 
-// The draws of places that stand alone have the same numbers.
+// The draws of places that stand alone, or among those of other sites, have the same numbers.
 TEST(LonePlace, ChangesNoNumber) {
     constexpr int n = 16;
     Context<Scalar> context{stream_key(5, 0, 0), 3, {}}, median{median_key, 3, {}};
+    Context<ScalarOf<float>> floats{stream_key(5, 0, 0), 3, {}};
     typename Pack<n>::Word low, high;
     for (int lane = 0; lane < n; ++lane) {
         const StreamKey key =
@@ -90,6 +91,13 @@ TEST(LonePlace, ChangesNoNumber) {
     for (int i = 0; i < 5; ++i) {
         EXPECT_EQ(uniform_at(context, LonePlace{2, i}), uniform_at(context, Place{2, i}));
         EXPECT_EQ(uniform_at(median, LonePlace{2, i}), median_number);
+        for (std::uint32_t site = 0; site < 20; ++site) {
+            EXPECT_EQ(uniform_at(context, PlaceAmongSites{site, i}),
+                      uniform_at(context, Place{site, i}));
+            EXPECT_EQ(uniform_at(floats, PlaceAmongSites{site, i}),
+                      uniform_at(floats, Place{site, i}));
+        }
+        EXPECT_EQ(uniform_at(median, PlaceAmongSites{2, i}), median_number);
         const auto alone = uniform_at(packs, LonePlace{2, i}), all = uniform_at(packs, Place{2, i});
         for (int lane = 0; lane < n; ++lane) EXPECT_EQ(alone[lane], all[lane]);
         EXPECT_EQ(sample::normal(context, LonePlace{1, i}, 2.0, 3.0),

@@ -52,8 +52,8 @@ namespace rddl::sample {
 
 // A uniform draw from [lower, upper); lower = upper gives lower. The width must be finite and not
 // negative.
-template <class L>
-RDDL_INLINE typename L::Real uniform(Context<L>& context, Place place, typename L::Real lower,
+template <class L, class SomePlace = Place>
+RDDL_INLINE typename L::Real uniform(Context<L>& context, SomePlace place, typename L::Real lower,
                                      typename L::Real upper) {
     using Real = typename L::Real;
     const Real width = upper - lower;
@@ -92,8 +92,9 @@ RDDL_INLINE typename L::Real normal(Context<L>& context, SomePlace place, const 
 }
 
 // -mean ln U.
-template <class L>
-RDDL_INLINE typename L::Real exponential(Context<L>& context, Place place, typename L::Real mean) {
+template <class L, class SomePlace = Place>
+RDDL_INLINE typename L::Real exponential(Context<L>& context, SomePlace place,
+                                         typename L::Real mean) {
     using Real = typename L::Real;
     const auto valid = context.require(mean > 0.0, FaultKind::Mean, place, mean);
     return select(valid, standard_at<StandardExponential>(context, place) * mean, Real{0});
@@ -112,8 +113,8 @@ RDDL_INLINE auto require_shape_and_scale(Context<L>& context, Place place, typen
 }  // namespace detail
 
 // scale (-ln U)^(1 / shape).
-template <class L>
-RDDL_INLINE typename L::Real weibull(Context<L>& context, Place place, typename L::Real shape,
+template <class L, class SomePlace = Place>
+RDDL_INLINE typename L::Real weibull(Context<L>& context, SomePlace place, typename L::Real shape,
                                      typename L::Real scale) {
     using Real = typename L::Real;
     const auto valid = detail::require_shape_and_scale(context, place, shape, scale);
@@ -122,8 +123,8 @@ RDDL_INLINE typename L::Real weibull(Context<L>& context, Place place, typename 
 }
 
 // Lomax's form, with support from 0: scale (U^(-1 / shape) - 1).
-template <class L>
-typename L::Real pareto(Context<L>& context, Place place, typename L::Real shape,
+template <class L, class SomePlace = Place>
+typename L::Real pareto(Context<L>& context, SomePlace place, typename L::Real shape,
                         typename L::Real scale) {
     using Real = typename L::Real;
     const auto valid = detail::require_shape_and_scale(context, place, shape, scale);
@@ -132,8 +133,8 @@ typename L::Real pareto(Context<L>& context, Place place, typename L::Real shape
 }
 
 // location - scale ln(-ln U): of maxima.
-template <class L>
-typename L::Real gumbel(Context<L>& context, Place place, typename L::Real location,
+template <class L, class SomePlace = Place>
+typename L::Real gumbel(Context<L>& context, SomePlace place, typename L::Real location,
                         typename L::Real scale) {
     using Real = typename L::Real;
     const auto valid = context.require(scale > 0.0, FaultKind::Scale, place, scale);
@@ -142,8 +143,8 @@ typename L::Real gumbel(Context<L>& context, Place place, typename L::Real locat
 }
 
 // An exponential on either side of the location.
-template <class L>
-typename L::Real laplace(Context<L>& context, Place place, typename L::Real location,
+template <class L, class SomePlace = Place>
+typename L::Real laplace(Context<L>& context, SomePlace place, typename L::Real location,
                          typename L::Real scale) {
     using Real = typename L::Real;
     const auto valid = context.require(scale > 0.0, FaultKind::Scale, place, scale);
@@ -153,8 +154,8 @@ typename L::Real laplace(Context<L>& context, Place place, typename L::Real loca
 }
 
 // tan(pi (U - 1/2)) as a cotangent of the distance to the nearer end: exact in both tails.
-template <class L>
-typename L::Real cauchy(Context<L>& context, Place place, typename L::Real location,
+template <class L, class SomePlace = Place>
+typename L::Real cauchy(Context<L>& context, SomePlace place, typename L::Real location,
                         typename L::Real scale) {
     using Real = typename L::Real;
     const auto valid = context.require(scale > 0.0, FaultKind::Scale, place, scale);
@@ -165,8 +166,8 @@ typename L::Real cauchy(Context<L>& context, Place place, typename L::Real locat
 }
 
 // ln(1 - ln(U) / shape) / rate; RDDL calls the rate a scale.
-template <class L>
-typename L::Real gompertz(Context<L>& context, Place place, typename L::Real shape,
+template <class L, class SomePlace = Place>
+typename L::Real gompertz(Context<L>& context, SomePlace place, typename L::Real shape,
                           typename L::Real rate) {
     using Real = typename L::Real;
     const auto valid = detail::require_shape_and_scale(context, place, shape, rate);
@@ -175,8 +176,8 @@ typename L::Real gompertz(Context<L>& context, Place place, typename L::Real sha
 }
 
 // (1 - U^(1/b))^(1/a).
-template <class L>
-typename L::Real kumaraswamy(Context<L>& context, Place place, typename L::Real a,
+template <class L, class SomePlace = Place>
+typename L::Real kumaraswamy(Context<L>& context, SomePlace place, typename L::Real a,
                              typename L::Real b) {
     using Real = typename L::Real;
     const auto a_is_valid = context.require(a > 0.0, FaultKind::Shape, place, a);

@@ -31,8 +31,8 @@ RDDL_INLINE typename L::Bool valid_bernoulli(Context<L>& context, SomePlace plac
 }
 
 // Trials up to the first success: 1, 2, ...; counts beyond int become the greatest int.
-template <class L>
-typename L::Int geometric(Context<L>& context, Place place, typename L::Real p) {
+template <class L, class SomePlace = Place>
+typename L::Int geometric(Context<L>& context, SomePlace place, typename L::Real p) {
     using Int = typename L::Int;
     const auto valid =
         context.require(is_positive_probability<L>(p), FaultKind::PositiveProbability, place, p);
@@ -45,8 +45,8 @@ typename L::Int geometric(Context<L>& context, Place place, typename L::Real p) 
 // An index below n with probability weight(i). The weights must sum to 1 up to 1.001e-5 (numpy's
 // allclose, as in pyRDDLGym) and are not renormalised: index 0 gets what is missing. A weight that
 // rounding made negative is never chosen, as the sum does not grow by it.
-template <class L, class Weight>
-typename L::Int discrete_over(Context<L>& context, Place place, Index n, Weight&& weight) {
+template <class L, class Weight, class SomePlace = Place>
+typename L::Int discrete_over(Context<L>& context, SomePlace place, Index n, Weight&& weight) {
     using Int = typename L::Int;
     using Real = typename L::Real;
     const Real u = uniform_at(context, place);
@@ -67,8 +67,8 @@ typename L::Int discrete_over(Context<L>& context, Place place, Index n, Weight&
 // The same with weights of any positive, finite sum. They are evaluated twice; the second time,
 // the last index of positive weight with no more than U * sum before it is chosen. Of the weights,
 // the first nan, or else the least, is what a fault names.
-template <class L, class Weight>
-typename L::Int unnormalised_discrete_over(Context<L>& context, Place place, Index n,
+template <class L, class Weight, class SomePlace = Place>
+typename L::Int unnormalised_discrete_over(Context<L>& context, SomePlace place, Index n,
                                            Weight&& weight) {
     using Int = typename L::Int;
     using Real = typename L::Real;
@@ -136,14 +136,14 @@ RDDL_INLINE typename L::Int interval(Context<L>& context, SomePlace place, const
     return count;
 }
 
-template <class L, std::size_t n>
-typename L::Int discrete(Context<L>& context, Place place,
+template <class L, std::size_t n, class SomePlace = Place>
+typename L::Int discrete(Context<L>& context, SomePlace place,
                          const std::array<typename L::Real, n>& weights) {
     return discrete_over(context, place, n, [&weights](Index i) { return weights[i]; });
 }
 
-template <class L, std::size_t n>
-typename L::Int unnormalised_discrete(Context<L>& context, Place place,
+template <class L, std::size_t n, class SomePlace = Place>
+typename L::Int unnormalised_discrete(Context<L>& context, SomePlace place,
                                       const std::array<typename L::Real, n>& weights) {
     return unnormalised_discrete_over(context, place, n,
                                       [&weights](Index i) { return weights[i]; });
