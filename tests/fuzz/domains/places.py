@@ -1,4 +1,4 @@
-"""Places of few things: tables of bools of which few are true, on roads and by directions."""
+"""Places of few things, on roads and by directions: tables of bools of which few are true. Cells that read their neighbours."""
 
 from domains.draft import ACTION, CONSTANT, STATE, Draft, boolean, of, over
 from rddl_problem import Type
@@ -7,7 +7,7 @@ FROM, TO = "?s", "?t"
 
 
 def add(draft: Draft) -> None:
-    for part in draft.rng.sample([roads, robots], draft.pick([1, 1, 2])):
+    for part in draft.rng.sample([roads, robots, cells], draft.pick([1, 1, 2])):
         part(draft)
 
 
@@ -82,3 +82,33 @@ def robots(draft: Draft) -> None:
     draft.define(place, ("?r", "?p"), over("exists", f"{FROM} : {spot}, ?w", way.name, reached))
     there = draft.pick([draft.at(place, "?r", "?p"), boolean("~%s", draft.at(place, "?r", "?p")), boolean("(%s ^ %s)", draft.at(place, "?r", "?p"), draft.some_bool({"?r": robot}))])
     draft.earn(over(draft.pick(["sum", "sum", "exists", "forall"]), f"?r : {robot}, ?p", spot, there))
+
+
+def cells(draft: Draft) -> None:
+    """Bools read those of neighbours, in branches that constants decide."""
+    cell = spots(draft, [8, 9, 16, 17, 31, 33, 64, 65])
+    members, size = draft.problem.type(cell).members, draft.size(cell)
+    neighbours, kinds = [], []
+    for _ in range(draft.pick([1, 2, 3])):
+        neighbour, offset = draft.declare("NEXT", CONSTANT, cell, cell), draft.pick([1, -1, 3, -4])
+        for index, member in enumerate(members):
+            neighbour.values[(member,)] = members[min(max(index + offset, 0), size - 1)]
+        neighbours.append(neighbour)
+    for _ in range(draft.pick([1, 2, 3])):
+        kind, begin = draft.declare("KIND", CONSTANT, "bool", cell, default="false"), draft.pick([0, 1, size // 2, size - 1])
+        for member in members[begin:] if draft.chance(0.5) else members[:begin]:
+            kind.values[(member,)] = "true"
+        kinds.append(kind)
+    states = [draft.declare("lit", STATE, "bool", cell) for _ in range(draft.pick([1, 2]))]
+
+    def value(depth: int):
+        if depth == 0:
+            return draft.at(draft.pick(states), draft.pick(["?c", *[draft.at(each, "?c") for each in neighbours] * 2]))
+        kind, parts = draft.at(draft.pick(kinds), "?c"), [value(depth - 1), value(depth - 1)]
+        form = draft.pick(["(if (%s) then %s else %s)", "((%s | %s) ^ %s)", "((%s ^ %s) | %s)", "(%s => (%s ^ ~%s))"])
+        return boolean(form, draft.pick([kind, kind, value(0)]), *parts)
+
+    for state in states:
+        flips = draft.coin(draft.pick(["0.5", "0.125"]))
+        draft.define(state, ("?c",), boolean("(if (%s) then %s else %s)", draft.pick([value(0), draft.at(kinds[0], "?c")]), value(draft.pick([1, 2, 3])), draft.pick([flips, value(2)])))
+        draft.earn(over("sum", "?c", cell, draft.at(state, "?c")))
