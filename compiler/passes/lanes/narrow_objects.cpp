@@ -30,7 +30,7 @@ bool are_none(const Objects& objects) {
     return std::ranges::find(objects, true) == objects.end();
 }
 
-// The places of a table, those that some object reads; less than `limit`.
+// The places of a table, all less than `limit`, and which of them an object reads.
 struct Places {
     std::vector<std::int64_t> values;
     Objects read;

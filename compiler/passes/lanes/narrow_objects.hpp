@@ -1,5 +1,6 @@
-// Tables of constants decide which objects of a loop reach an expression: what is the same for all
-// of those is known there, and places that none of those reads may be any others.
+// Constants decide which objects of a loop reach an expression. A bool that only constants decide,
+// and that is the same for all of these objects, becomes true or false there. Tables of places may
+// hold any values for the objects that do not read them.
 //
 //     for c in cell
 //         next.up[c] = select(ENTRY[c], IN[c] && element(state.up, places[c]),
