@@ -174,6 +174,7 @@ void Cem::record_policy(const DecisionPoint& point, BudgetMeter& meter) {
         solvers::read_action(space_, row_.data(),
                              plan_.numbers.data() + t * default_numbers_.size(),
                              plan_.indices.data() + t * default_indices_.size());
+        if (t + 1 == rows) return;  // no action follows, which would need the next state
         recording_->step(actions_.data());
         meter.add_steps(1);
     }

@@ -96,6 +96,16 @@ TEST(Cem, LooksNear) {
     for (const auto& [place, explanation] : plan.explanation) EXPECT_LE(explanation.steps, 2000);
 }
 
+// The policy's plan is recorded by steps of the same budget.
+TEST(Cem, RecordsThePolicyWithinItsSteps) {
+    for (const std::int64_t steps : {1, 2, 5, 16}) {
+        const Played plan =
+            run(reservoir(), "plan:cem,policy=random,population=5,steps=" + std::to_string(steps));
+        for (const auto& [place, explanation] : plan.explanation)
+            EXPECT_LE(explanation.steps, steps);
+    }
+}
+
 // Four populations, and a comparison that takes as many steps as one, fit into what is left.
 TEST(Cem, SizesPopulationsByWhatNearPlansLeave) {
     const auto populations = [](const std::string& options) {
