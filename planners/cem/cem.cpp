@@ -180,7 +180,7 @@ void Cem::record_policy(const DecisionPoint& point, BudgetMeter& meter) {
     }
 }
 
-// New streams, the same for all of so many plans: what differs is theirs.
+// New random streams. So many lanes in turn have the same one, so that only their plans differ.
 void Cem::draw_streams(RandomStream& stream, std::size_t plans) {
     for (std::size_t begin = 0; begin < lanes_; begin += plans)
         std::fill_n(streams_.begin() + static_cast<std::ptrdiff_t>(begin),

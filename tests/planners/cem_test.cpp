@@ -42,7 +42,7 @@ TEST(Cem, FindsWhatNoNoiseFinds) {
     EXPECT_LE(run(lock(), "plan:cem,iterations=8,horizon=11").mean(), 0);
 }
 
-// With stream to draw, what is chosen is compared by many draws; no-op is always among them.
+// Where something is drawn, the choice is compared by many draws; no-op is always among them.
 TEST(Cem, KnowsWhatNoopIsWorth) {
     const Played plan = run(network(), "plan:cem,iterations=2,population=64");
     const Explanation& explanation = plan.thought(0, 0);
