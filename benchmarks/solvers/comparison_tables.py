@@ -18,7 +18,7 @@ REQUIRED_SHARE = 0.9
 
 
 def has_value(result):
-    return result is not None and "failure" not in result and all(
+    return result is not None and "failure" not in result and not result.get("illegal_steps") and all(
         isinstance(result[key], (int, float)) for key in ("mean", "half_width"))
 
 
@@ -87,6 +87,8 @@ def cell(row, method, best):
     text = interval_text(result["mean"], result["half_width"])
     if method == "optimum" and result.get("discount", 1) != 1:
         return text + " discounted"
+    if result.get("illegal_steps"):
+        return text + " illegal"
     return f"**{text}**" if best is not None and has_value(result) and method in OURS + THEIRS and \
         result["mean"] == best["mean"] else text
 

@@ -16,6 +16,7 @@ import resource
 import statistics
 import sys
 import time
+from collections import Counter
 from pathlib import Path
 from types import SimpleNamespace
 
@@ -42,8 +43,22 @@ def configuration_of(problem, kind):
     return next((path for path in folder.iterdir() if path.name.lower() == name), folder / f"default_{kind}.cfg")
 
 
+def count_illegal_steps(env):
+    """Counts the steps whose actions break preconditions. pyRDDLGym plays them all the same."""
+    check = env.sampler.check_action_preconditions
+    counted = Counter()
+
+    def count(actions, silent):
+        counted["illegal"] += not check(actions, silent=True)
+
+    env.sampler.check_action_preconditions = count
+    env.enforce_action_constraints = True
+    return counted
+
+
 def evaluated(configuration, arguments):
     env = pyRDDLGym.make(arguments.problem, arguments.instance, vectorized=True)
+    steps = count_illegal_steps(env)
     env.discount = 1  # of the evaluation; the planner has that of the instance
     begin = time.process_time()
     planner_options, _, training = load_config(str(configuration))
@@ -55,7 +70,7 @@ def evaluated(configuration, arguments):
     returns = [controller.evaluate(env, episodes=1, seed=arguments.seed + episode)["mean"]
                for episode in range(arguments.episodes)]
     error = statistics.stdev(returns) / len(returns) ** 0.5 * T_95[min(len(returns) - 2, len(T_95) - 1)] if len(returns) > 1 else 0
-    return {"mean": float(statistics.mean(returns)), "half_width": float(error), "episodes": len(returns),
+    return {"mean": float(statistics.mean(returns)), "half_width": float(error), "episodes": len(returns), "illegal_steps": steps["illegal"],
             "configuration": configuration.stem, "gradients": controller.callback["iteration"] + 1, "training_seconds": trained}
 
 

@@ -174,12 +174,13 @@ void Cem::record_policy(const DecisionPoint& point, BudgetMeter& meter) {
         solvers::read_action(space_, row_.data(),
                              plan_.numbers.data() + t * default_numbers_.size(),
                              plan_.indices.data() + t * default_indices_.size());
+        if (t + 1 == rows) return;  // no action follows, which would need the next state
         recording_->step(actions_.data());
         meter.add_steps(1);
     }
 }
 
-// New streams, the same for all of so many plans: what differs is theirs.
+// New random streams. So many lanes in turn have the same one, so that only their plans differ.
 void Cem::draw_streams(RandomStream& stream, std::size_t plans) {
     for (std::size_t begin = 0; begin < lanes_; begin += plans)
         std::fill_n(streams_.begin() + static_cast<std::ptrdiff_t>(begin),

@@ -103,8 +103,8 @@ class Cem : public Planner {
     std::int64_t batch_horizon_;  // as in PlannerContext
     solvers::ActionSpace space_;
     double near_part_;                         // of the budget and of the memory, for near plans
-    std::int64_t memory_limit_;                // of all others
-    std::optional<std::int64_t> steps_limit_;  // of all others in a decision
+    std::int64_t memory_limit_;                // of all other plans
+    std::optional<std::int64_t> steps_limit_;  // of all other plans in a decision
     solvers::ActionRecords records_;
     std::size_t population_, scenarios_, lanes_;
     Futures futures_;

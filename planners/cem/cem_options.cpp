@@ -22,7 +22,7 @@ solvers::OptionTable<O> make_cem_table() {
             [](auto& o) -> auto& { return o.population; }, 4, 1 << 20),
         number_option<O, int>(
             {"scenarios", "scenarios", "N",
-             "Draws of stream that each plan is played with, the same for all (4, or 1 where "
+             "Random streams that each plan is played with, the same for all (4, or 1 where "
              "nothing is drawn at random)"},
             [](auto& o) -> auto& { return o.scenarios; }, 1, 1 << 16),
         number_option<O, double>(

@@ -16,7 +16,7 @@ enum class Tail { Policy, Value };
 
 struct CemOptions : CommonOptions {
     int population = 256;
-    std::optional<int> scenarios;  // draws of stream for each plan of actions
+    std::optional<int> scenarios;  // random streams of each plan of actions
     double elites = 0.1;           // the part of the population that the next one is drawn like
     double correlation = -1;       // of noise between steps; below 0: a mixture
     double spread = 1;             // of the first population, in half widths of bounds

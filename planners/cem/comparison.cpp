@@ -1,4 +1,4 @@
-// The end of a decision of plan:cem: the best plans are compared with new stream.
+// The end of a decision of plan:cem: the best plans are compared by new random streams.
 #include "planners/cem/cem.hpp"
 #include "planners/simulation/mean_and_error.hpp"
 
@@ -26,8 +26,8 @@ void Cem::play_tail(const DecisionPoint& point, std::int64_t steps, BudgetMeter&
     }
 }
 
-// Compares the best plans, no-op, the policy and the middle, with random streams that none of them
-// was selected by.
+// Compares the best plans, no-op, the policy and the middle, by random streams that did not select
+// any of them.
 Cem::Choice Cem::compare(const DecisionPoint& point, std::int64_t steps, RandomStream& stream,
                          BudgetMeter& meter) {
     compared_.clear();

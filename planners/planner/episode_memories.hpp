@@ -16,18 +16,19 @@ class EpisodeMemories {
     explicit EpisodeMemories(std::int64_t environments)
         : places_(static_cast<std::size_t>(environments)) {}
 
-    // The memory of the decision's episode. It is empty where the episode begins, and where the
-    // planner has not acted in this episode before: it may be asked first in the middle of one.
+    // The memory of the decision's episode. It is empty where the planner has not acted in this
+    // episode before, and where the episode was set back: what is remembered is of later steps.
     std::optional<Memory>& of(const DecisionPoint& point) {
         Place& place = places_[static_cast<std::size_t>(point.place)];
-        if (point.step == 0 || place.episode != point.episode) place.memory.reset();
+        if (place.episode != point.episode || point.step <= place.step) place.memory.reset();
         place.episode = point.episode;
+        place.step = point.step;
         return place.memory;
     }
 
   private:
     struct Place {
-        std::int64_t episode = -1;
+        std::int64_t episode = -1, step = -1;  // of the decision before
         std::optional<Memory> memory;
     };
     std::vector<Place> places_;

@@ -60,8 +60,9 @@ struct Explanation {
 class Planner {
   public:
     virtual ~Planner() = default;
-    // Writes the action record. Where step is 0, or the episode is another one than in the decision
-    // before, this place has a new episode. Reasons are added to `explanation`, unless it is NULL.
+    // Writes the action record. Where the episode is another one than in the place's decision
+    // before, or the step is not a later one, the planner begins without a memory. Reasons are
+    // added to `explanation`, unless it is NULL.
     virtual void decide(const DecisionPoint& point, std::byte* action,
                         Explanation* explanation) = 0;
 };

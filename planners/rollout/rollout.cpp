@@ -94,7 +94,7 @@ void Rollout::draw_actions(const DecisionPoint& point, RandomStream& stream) {
                                 drawn_.data(), repair_);
 }
 
-// All that are left, each with the same draws of stream: as many as there are lanes for.
+// All that are left, each with the same random streams, as many as there are lanes for.
 bool Rollout::try_all(const DecisionPoint& point, RandomStream& stream, BudgetMeter& meter) {
     const std::int64_t wanted = std::min(point.left, options_.horizon.value_or(longest_rollout));
     const auto left = static_cast<std::int64_t>(left_.size());

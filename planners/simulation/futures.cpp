@@ -85,7 +85,7 @@ bool Futures::take_plain_step() {
     // ended.
     if (running_count_ < count())
         for (std::size_t k = 0; k < lanes; ++k) rewards_[k] = running_[k] ? rewards_[k] : 0;
-    std::uint64_t bad = 0;  // the bits of zeros, or of nan
+    std::uint64_t bad = 0;  // of differences that are 0 where rewards are finite, else nan
     const double discount = discount_;
     const double *const rewards = rewards_.data(), *const returns = returns_.data();
     double* const sums = sums_.data();

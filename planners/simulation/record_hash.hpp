@@ -29,7 +29,7 @@ inline std::uint64_t hash_of(const std::byte* record, std::size_t size, std::uin
     // The last word may have bytes of the one before it.
     if (size >= 8)
         std::memcpy(&word, record + size - 8, 8);
-    else
+    else if (size > 0)  // else there may be no record
         std::memcpy(&word, record, size);
     return scrambled(key ^ word);
 }

@@ -528,6 +528,8 @@ void Uct::note_explanation(Explanation& explanation, EdgeId chosen, const Budget
     const Node& root = tree().node(root_);
     if (root.is_locked)
         explanation.note = "no action changes the state or the reward any more";
+    else if (root.edge_count == 1)
+        explanation.note = "only one action is legal, or all have the same outcome";
     else if (meter.iterations() == 0)
         explanation.note = "the budget did not last for a trial";
     explanation.chosen = chosen - root.first_edge;

@@ -42,7 +42,7 @@ TEST(Cem, FindsWhatNoNoiseFinds) {
     EXPECT_LE(run(lock(), "plan:cem,iterations=8,horizon=11").mean(), 0);
 }
 
-// With stream to draw, what is chosen is compared by many draws; no-op is always among them.
+// Where something is drawn, the choice is compared by many draws; no-op is always among them.
 TEST(Cem, KnowsWhatNoopIsWorth) {
     const Played plan = run(network(), "plan:cem,iterations=2,population=64");
     const Explanation& explanation = plan.thought(0, 0);
@@ -94,6 +94,16 @@ TEST(Cem, LooksNear) {
     EXPECT_FALSE(has_near(played("", 1)));  // 9 actions
     EXPECT_EQ(plan.returns(), played(",near=0.5", 2).returns());
     for (const auto& [place, explanation] : plan.explanation) EXPECT_LE(explanation.steps, 2000);
+}
+
+// The policy's plan is recorded by steps of the same budget.
+TEST(Cem, RecordsThePolicyWithinItsSteps) {
+    for (const std::int64_t steps : {1, 2, 5, 16}) {
+        const Played plan =
+            run(reservoir(), "plan:cem,policy=random,population=5,steps=" + std::to_string(steps));
+        for (const auto& [place, explanation] : plan.explanation)
+            EXPECT_LE(explanation.steps, steps);
+    }
 }
 
 // Four populations, and a comparison that takes as many steps as one, fit into what is left.

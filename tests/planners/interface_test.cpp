@@ -1,4 +1,5 @@
 // Properties of all planners: names, options, budgets, stream of their own.
+#include "planners/planner/episode_memories.hpp"
 #include "planning.hpp"
 #include "solvers/batches/batch.hpp"
 
@@ -221,6 +222,25 @@ TEST(PlannerSight, OfHiddenStatesHasToBeAllowed) {
     const Played plan = run(maze(), "plan:cem,cheat=yes,steps=10");
     EXPECT_EQ(plan.summary.episodes, 1);
     EXPECT_FALSE(plan.thought(0, 0).particles);
+}
+
+// A state that was set back has another future than the one that is remembered.
+TEST(EpisodeMemories, KnowNothingOfLaterSteps) {
+    EpisodeMemories<int> memories(1);
+    DecisionPoint point{
+        .origin = {nullptr, 0}, .place = 0, .episode = 3, .step = 4, .left = 9, .horizon = 0};
+    EXPECT_FALSE(memories.of(point));
+    memories.of(point) = 1;
+    point.step = 6;
+    EXPECT_TRUE(memories.of(point));
+    for (const std::int64_t step : {6, 5, 0, 0}) {
+        point.step = step;
+        EXPECT_FALSE(memories.of(point));
+        memories.of(point) = 1;
+    }
+    point.step = 1;
+    point.episode = 4;
+    EXPECT_FALSE(memories.of(point));
 }
 
 }  // namespace

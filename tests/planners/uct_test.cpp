@@ -64,6 +64,13 @@ TEST(Uct, SeesWhereNothingChanges) {
     EXPECT_GT(over, 0);
 }
 
+TEST(Uct, SeesWhereThereIsNoChoice) {
+    const workbench::LoadedProblem problem = interpreted("signal");
+    const Played plan = run(*problem.simulator, "plan:uct,steps=500");
+    EXPECT_EQ(plan.thought(0, 0).note, "only one action is legal, or all have the same outcome");
+    EXPECT_EQ(plan.thought(0, 1).note, "");
+}
+
 // A decision whose steps do not last for those draws leaves the question to a later one.
 TEST(Uct, SeesLaterWhereNothingChangesIfABudgetWasTooShort) {
     const workbench::LoadedProblem problem = interpreted("corridor");
