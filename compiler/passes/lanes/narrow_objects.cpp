@@ -186,8 +186,10 @@ class Narrowing {
 
     // ------------------------------------------------------------------------------- places
 
-    // The table of places by which an element is read, at the objects of the loop.
+    // The table of places by which an element is read, at the objects of the loop. Elements of
+    // constants keep theirs: what they decide is known for objects that do not reach them, too.
     const ir::Load* place_of(const ir::Element& element) const {
+        if (program_[element.buffer].storage == ir::Storage::Constant) return nullptr;
         const auto* load = std::get_if<ir::Load>(&program_[element.place].form);
         const bool is_own = load && program_[load->buffer].storage == ir::Storage::Constant &&
                             ir::are_variables_of(program_, load->indices, nest_);
@@ -198,7 +200,7 @@ class Narrowing {
         const ir::Load* const load = element ? place_of(*element) : nullptr;
         if (load == nullptr) return;
         const std::int64_t limit = program_[element->buffer].count();
-        loads_.insert(element->place);
+        elements_.insert(id);
         const auto [found, is_new] = places_.try_emplace(load->buffer);
         Places& places = found->second;
         if (is_new) {
@@ -237,9 +239,11 @@ class Narrowing {
             joined.push_back(with_places(group.first, group.places));
         }
         std::map<ir::NodeId, ir::NodeId> replaced;
-        for (const ir::NodeId id : loads_) {
-            const ir::Load load = std::get<ir::Load>(program_[id].form);
-            replaced[id] = builder_.load(joined[group_of.at(load.buffer)], load.indices);
+        for (const ir::NodeId id : elements_) {
+            const ir::Element element = std::get<ir::Element>(program_[id].form);
+            const ir::Load load = std::get<ir::Load>(program_[element.place].form);
+            const ir::BufferId table = joined[group_of.at(load.buffer)];
+            replaced[id] = builder_.element(element.buffer, builder_.load(table, load.indices));
         }
         for (ir::Store* const store : stores_)
             store->value = ir::replace_in(builder_, store->value, replaced);
@@ -276,7 +280,7 @@ class Narrowing {
 
     // Members of all loops: their statements, and what these read by places.
     std::vector<ir::Store*> stores_;
-    std::set<ir::NodeId> loads_;  // of places
+    std::set<ir::NodeId> elements_;
     std::map<ir::BufferId, Places> places_;
     std::map<ir::BufferId, ir::BufferId> former_;  // by the table that takes its place
 };
