@@ -176,8 +176,11 @@ RDDL_INLINE void store_masks(const std::array<BitColumns, n / 8>& columns, int c
         for (int first = 0; first < count; first += 8) {
             __m512i bits = _mm512_setzero_si512();
             for (unsigned i = 0; i < 8; ++i) {
-                const __m128i bytes = _mm_loadl_epi64(
-                    reinterpret_cast<const __m128i*>(&columns[i][static_cast<std::size_t>(first)]));
+                // clang++ takes no address of an element.
+                const auto* const bytes_of_columns =
+                    reinterpret_cast<const std::uint8_t*>(&columns[i]);
+                const __m128i bytes =
+                    _mm_loadl_epi64(reinterpret_cast<const __m128i*>(bytes_of_columns + first));
                 bits |=
                     _mm512_maskz_slli_epi64(0xFF, _mm512_maskz_cvtepu8_epi64(0xFF, bytes), 8 * i);
             }
