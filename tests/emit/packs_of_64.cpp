@@ -1,5 +1,4 @@
-// What the text of a simulator of 64 lanes uses, for each compiler that users may have: it must
-// compile.
+// Each compiler that users may have must compile what simulators of 64 lanes use.
 #include <rddl/values/bool_rows.hpp>
 
 #include <array>

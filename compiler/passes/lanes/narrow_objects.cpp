@@ -187,7 +187,7 @@ class Narrowing {
     // ------------------------------------------------------------------------------- places
 
     // The table of places by which an element is read, at the objects of the loop. Elements of
-    // constants keep theirs: what they decide is known for objects that do not reach them, too.
+    // constants keep theirs: what they decide is also known for objects that do not reach them.
     const ir::Load* place_of(const ir::Element& element) const {
         if (program_[element.buffer].storage == ir::Storage::Constant) return nullptr;
         const auto* load = std::get_if<ir::Load>(&program_[element.place].form);
