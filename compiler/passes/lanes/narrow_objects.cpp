@@ -221,7 +221,9 @@ class Narrowing {
         };
         std::vector<Group> groups;
         std::map<ir::BufferId, std::size_t> group_of;
-        for (const auto& [table, places] : places_) {
+        for (const auto& noted : places_) {
+            const ir::BufferId table = noted.first;
+            const Places& places = noted.second;
             const auto group = std::ranges::find_if(groups, [&](const Group& each) {
                 return program_[each.first].types == program_[table].types &&
                        program_[each.first].shape == program_[table].shape &&
