@@ -42,7 +42,7 @@ cmake --build build
 time_of build
 
 step "3/4 build with sanitizers"
-# clang++ takes two thirds of the time of g++ here, and shows that it takes our sources without a warning.
+# clang++ compiles in two thirds of the time of g++, and shows that it takes our sources without a warning.
 cmake -S . -B build/sanitize-clang -G Ninja --log-level=WARNING -DRDDLC_BUILD_TESTS=ON -DRDDLC_WARNINGS_AS_ERRORS=ON \
     -DRDDLC_SANITIZE=ON -DCMAKE_CXX_COMPILER=clang++ -DCMAKE_BUILD_TYPE=None -DCMAKE_CXX_FLAGS="-O0 -g1"
 cmake --build build/sanitize-clang --target sanitized_tests

@@ -70,8 +70,9 @@ def evaluated(configuration, arguments):
     returns = [controller.evaluate(env, episodes=1, seed=arguments.seed + episode)["mean"]
                for episode in range(arguments.episodes)]
     error = statistics.stdev(returns) / len(returns) ** 0.5 * T_95[min(len(returns) - 2, len(T_95) - 1)] if len(returns) > 1 else 0
-    return {"mean": float(statistics.mean(returns)), "half_width": float(error), "episodes": len(returns), "illegal_steps": steps["illegal"],
-            "configuration": configuration.stem, "gradients": controller.callback["iteration"] + 1, "training_seconds": trained}
+    return {"mean": float(statistics.mean(returns)), "half_width": float(error), "episodes": len(returns),
+            "illegal_steps": steps["illegal"], "configuration": configuration.stem, "gradients": controller.callback["iteration"] + 1,
+            "training_seconds": trained}
 
 
 def main():

@@ -3,6 +3,13 @@
 #include <cmath>
 
 namespace rddlc::planners {
+namespace {
+
+std::uint32_t key_of(RandomStream& stream) {
+    return static_cast<std::uint32_t>(stream.bits() >> 32);
+}
+
+}  // namespace
 
 PlanNoise::PlanNoise(std::size_t plans, int reals, int ranks, std::span<const double> correlations)
     : loops_(plan_loops()),
@@ -23,14 +30,6 @@ PlanNoise::PlanNoise(std::size_t plans, int reals, int ranks, std::span<const do
         keep_.push_back(static_cast<std::uint32_t>(std::lround(256 * of_ranks)));
     }
 }
-
-namespace {
-
-std::uint32_t key_of(RandomStream& stream) {
-    return static_cast<std::uint32_t>(stream.bits() >> 32);
-}
-
-}  // namespace
 
 void PlanNoise::restart(RandomStream& stream) {
     is_first_ = true;
