@@ -234,11 +234,10 @@ class FlatPrinter {
 // "first\n    rest\n    rest"
 std::string hanging(std::string_view text) {
     std::string result;
-    for (const char c : text) {
-        result += c;
-        if (c == '\n') result += "    ";
-    }
-    return result;
+    std::size_t begin = 0;
+    for (std::size_t end; (end = text.find('\n', begin)) != text.npos; begin = end + 1)
+        result.append(text, begin, end + 1 - begin).append("    ");
+    return result.append(text, begin);
 }
 
 // Constructs that end in a body or hold one in brackets put it on lines of its own; operators
