@@ -2,7 +2,7 @@
 
     .venv/bin/python benchmarks/cliffs.py                        all 586 instances; hours
     .venv/bin/python benchmarks/cliffs.py RecSim_ippc2023        some problems
-    .venv/bin/python benchmarks/cliffs.py --smallest-median-largest
+    .venv/bin/python benchmarks/cliffs.py --instances-each 3
     .venv/bin/python benchmarks/cliffs.py --require --write      fail below the limit; docs/benchmarks.md
 
 `rddl bench` with one thread: steps of a single environment for a second of processor time, and those of a
@@ -21,7 +21,7 @@ from bench import Results, bench, geometric_mean
 from document import ROOT, machine_text, markdown_table, write_section
 
 sys.path.append(str(ROOT / "tests/conformance"))
-from problems import Case, all_problems, repository_cases, smallest_median_largest
+from problems import Case, all_problems, repository_cases, spread_by_size
 
 LEAST_RATIO = 0.9  # 1, with a margin for caches and for the noise between measurements of one program
 LONGER = 10
@@ -57,8 +57,8 @@ def measure(case: Case, options: argparse.Namespace) -> Entry:
 
 
 def cases_of(options: argparse.Namespace) -> list[Case]:
-    choose = smallest_median_largest if options.smallest_median_largest else lambda cases: cases
-    return [case for name in options.problems or all_problems() for case in choose(repository_cases(name))]
+    problems = options.problems or all_problems()
+    return [case for name in problems for case in spread_by_size(repository_cases(name), options.instances_each)]
 
 
 def text_of(entries: list[Entry]) -> str:
@@ -81,7 +81,7 @@ def text_of(entries: list[Entry]) -> str:
 def parse_arguments() -> argparse.Namespace:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("problems", nargs="*", help="names of problems of rddlrepository")
-    parser.add_argument("--smallest-median-largest", action="store_true", help="up to three instances a problem")
+    parser.add_argument("--instances-each", type=int, help="3: the smallest, the median and the largest (all)")
     parser.add_argument("--rddl", type=Path, default=ROOT / "build/bin/rddl", help="our program")
     parser.add_argument("--seconds", type=float, default=0.1, help="of each measurement")
     default = ROOT / "build/benchmarks/cliffs.jsonl"

@@ -40,7 +40,7 @@ from document import ROOT, machine_text, markdown_table, write_section
 sys.path.append(str(ROOT / "tests/conformance"))
 sys.path.insert(0, str(ROOT / "benchmarks/peers"))
 
-from problems import Case, all_problems, repository_cases, smallest_median_largest  # noqa: E402
+from problems import Case, all_problems, repository_cases, spread_by_size  # noqa: E402
 from vectorized_environment import VectorizedEnvironment  # noqa: E402
 
 BATCH_MEAN, SINGLE_MEAN, LEAST = 3000.0, 1000.0, 50.0
@@ -89,11 +89,6 @@ def compare(case: Case, options: argparse.Namespace) -> Comparison:
         comparison.single.append(single)
         comparison.batch.append(batch)
     return comparison
-
-
-def smallest_and_largest(problem: str) -> list[Case]:
-    picked = smallest_median_largest(repository_cases(problem))
-    return picked if len(picked) == 1 else [picked[0], picked[-1]]
 
 
 def columns(comparison: Comparison) -> tuple[str, ...]:
@@ -190,7 +185,8 @@ def main() -> int:
     np.seterr(all="ignore")
     about = f"{versions_text()}; {options.rounds} rounds of {options.seconds:g} s"
     print(f"{about}\n\n{row_text(TITLES)}")
-    cases = [case for problem in options.problems or all_problems() for case in smallest_and_largest(problem)]
+    problems = options.problems or all_problems()
+    cases = [case for problem in problems for case in spread_by_size(repository_cases(problem), 2)]
     results = Results(options.results, options.fresh, Comparison, lambda c: c.label)
     compile_ahead([case for case in cases if case.label not in results.entries], options)
     failures = measure_missing(cases, results, options)

@@ -33,7 +33,7 @@ from document import ROOT, machine_text, markdown_table, write_section
 
 sys.path.append(str(ROOT / "tests/conformance"))
 
-from problems import CORE, Case, all_problems, repository_cases, smallest_median_largest  # noqa: E402
+from problems import CORE, Case, all_problems, repository_cases, spread_by_size  # noqa: E402
 
 LEAST_RATIO = 10.0
 OUR_BATCHES = "64,256,1024,4096"
@@ -131,7 +131,7 @@ def prepare(case: Case, options: argparse.Namespace) -> None:
 
 
 def median_case(problem: str) -> Case:
-    cases = smallest_median_largest(repository_cases(problem))
+    cases = spread_by_size(repository_cases(problem), 3)
     return cases[len(cases) // 2]
 
 

@@ -20,7 +20,7 @@ from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from pathlib import Path
 
-from problems import ROOT, Case, all_problems, cases_of, example_cases, smallest_median_largest
+from problems import ROOT, Case, all_problems, cases_of, example_cases, spread_by_size
 
 SKIPPED = 77
 CHECK = ["-std=c++20", "-Wall", "-Wextra", "-Werror", "-fsyntax-only", "-DRDDL_LINKS_BATCHES"]
@@ -94,7 +94,7 @@ def picked(options: argparse.Namespace) -> list[Case]:
     cases = example_cases() if options.examples else []
     for problem in options.problems + (all_problems() if options.repository else []):
         instances = cases_of([problem])
-        cases += instances if options.all else smallest_median_largest(instances)[:1]
+        cases += instances if options.all else spread_by_size(instances, 1)
     return cases
 
 

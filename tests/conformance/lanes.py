@@ -25,7 +25,7 @@ from pathlib import Path
 
 from ours import last_lines, problem_words
 from problems import ROOT, Case, all_problems, example_cases, repository_cases
-from problems import smallest_median_largest
+from problems import spread_by_size
 
 
 @dataclass
@@ -73,7 +73,7 @@ def chosen_cases(options) -> list[Case]:
         return example_cases()
     by_problem = [repository_cases(name) for name in options.problems or all_problems()]
     if not options.all:
-        by_problem = [smallest_median_largest(cases)[:1] for cases in by_problem]
+        by_problem = [spread_by_size(cases, 1) for cases in by_problem]
     return [case for cases in by_problem for case in cases]
 
 

@@ -120,8 +120,13 @@ def cases_of(problems: list[str]) -> list[Case]:
     return [case for problem in problems or all_problems() for case in repository_cases(problem)]
 
 
-def smallest_median_largest(cases: list[Case]) -> list[Case]:
-    """Up to three instances of one problem, by the size of their text."""
+def spread_by_size(cases: list[Case], count: int | None) -> list[Case]:
+    """Up to so many instances of one problem, by the size of their text: the smallest, the largest, then those
+    between; all without a count."""
+    if count is None:
+        return cases
     by_size = sorted(cases, key=lambda case: (case.instance_path.stat().st_size, case.instance))
-    picked = {0, len(by_size) // 2, len(by_size) - 1}
+    if count == 1:
+        return by_size[:1]
+    picked = {min(i * len(by_size) // (count - 1), len(by_size) - 1) for i in range(count)}
     return [by_size[index] for index in sorted(picked)]

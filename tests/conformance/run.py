@@ -22,7 +22,7 @@ from ours import Replayed, ReplayFailure, faults, replay, trace
 from model import DrawPoint
 from passes import cases_without_each
 from problems import CORE, ROOT, Case, all_problems, example_cases, probe_cases
-from problems import repository_cases, smallest_median_largest
+from problems import repository_cases, spread_by_size
 from recordings import recording_of, refusals_of
 from reference import Plan, Recording
 from refusals import RefusalPlan, Refusals
@@ -155,9 +155,9 @@ def named_cases(options) -> list[Case]:
     problems = options.problems or (all_problems() if options.all else CORE)
     by_problem = [repository_cases(problem) for problem in problems]
     if options.without_each:
-        by_problem = [smallest_median_largest(cases)[:1] for cases in by_problem]
-    elif options.smallest_median_largest:
-        by_problem = [smallest_median_largest(cases) for cases in by_problem]
+        by_problem = [spread_by_size(cases, 1) for cases in by_problem]
+    else:
+        by_problem = [spread_by_size(cases, options.instances_each) for cases in by_problem]
     return [case for cases in by_problem for case in cases]
 
 
@@ -168,7 +168,7 @@ def parse_arguments() -> argparse.Namespace:
     parser.add_argument("--examples", action="store_true", help="the problems of examples/")
     parser.add_argument("--probes", action="store_true", help="the problems of probes/ and tests/cases/meaning-*")
     parser.add_argument(
-        "--smallest-median-largest", action="store_true", help="up to three instances a problem"
+        "--instances-each", type=int, help="of a problem: 2 are the smallest and the largest, 3 also the median (all)"
     )
     parser.add_argument("--without", action="append", default=[], help="leave out an optimisation")
     parser.add_argument("--fast-math", action="store_true")
