@@ -69,11 +69,11 @@ class Pictures(DrawingTest):
     def test_cut_and_changed_traces(self):
         text = ("\n".join(self.make_trace(EXAMPLES[0])) + "\n").encode()
         dice = random.Random(2)
-        for length in range(0, len(text), len(text) // 12):
+        for length in range(0, len(text), len(text) // 8):
             self.write("odd.jsonl", text[:length])
             self.render("odd.jsonl", "--gif=a.gif", "--png=a.png", "--size=60x40")
             self.render("t.jsonl", "--beside=odd.jsonl", "--html=a.html", "--size=60x40")
-        for _ in range(20):
+        for _ in range(10):
             changed = bytearray(text)
             for _ in range(dice.choice((1, 1, 3))):
                 place = dice.randrange(len(changed))
