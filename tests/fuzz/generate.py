@@ -237,6 +237,8 @@ class Generator(Tables, Expressions, Distributions, Shapes, Assumptions, Signs, 
             shaped = self.definition_of_matrix(fluent)
         elif fluent.name in ("turn", "speed", "bound") and self.chance(0.9):
             shaped = self.definition_with_bounds(fluent)
+        elif fluent.name in ("near", "bumped"):
+            shaped = self.definition_with_places(fluent)
         elif self.chance(0.6 if fluent.name in ("stock", "cap", "at") else 0.25):
             shaped = self.shaped_definition(fluent)
         if shaped is not None:

@@ -41,6 +41,8 @@ class Shapes:
                 fluent.fraction = UNSURE  # it is clamped by tables
         if self.chance(0.4):
             fluents += self.ladders(self.pick(objects))
+        if self.chance(0.25):
+            fluents += self.places(max(objects, key=self.size))
         return fluents
 
     def ladders(self, type_name: str) -> list[Fluent]:
@@ -57,6 +59,17 @@ class Shapes:
             high.values[(member,)] = str(start + width * number % 200 + width - gap)
             time.values[(member,)] = str(number)
         return [low, high, time]
+
+    def places(self, type_name: str) -> list[Fluent]:
+        """A place in the plane for each object, and what is near one."""
+        x, y = (Fluent(name, "non-fluent", "real", (type_name,)) for name in ("PLACE_X", "PLACE_Y"))
+        for fluent in x, y:
+            fluent.default, fluent.magnitude, fluent.fraction = "-25.0", 10, 2
+            for member in self.problem.type(type_name).members:
+                fluent.values[(member,)] = str(self.rng.randint(-100, 100) / 4)
+        position = [self.declared(name, "state-fluent", "real", ()) for name in ("east", "north")]
+        near = Fluent("near", "interm-fluent", "bool", (type_name,), magnitude=1, fraction=0)
+        return [x, y, *position, near, self.declared("bumped", "state-fluent", "bool", ())]
 
     # --------------------------------------------------------------------------- references
 
@@ -222,6 +235,19 @@ class Shapes:
             return inside if self.chance(0.5) else Expr("bool", "(%s ^ %s)", (inside, self.boolean(0)))
 
         return self.with_ladder(body, lambda binder, e, _n: Expr("bool", f"(exists_{binder} [%s])", (e,)))
+
+    def definition_with_places(self, fluent: Fluent) -> Expr:
+        """Whether a place is near, of each object; and whether one is."""
+        if fluent.name == "bumped":
+            place = next(f for _, f in self.visible if f.name == "near").parameters[0]
+            return Expr("bool", f"(exists_{{?p : {place}}} [near(?p)])", ())
+        form = self.pick([
+            "(pow[east - PLACE_X({v}), 2] + pow[north - PLACE_Y({v}), 2] <= {least})",
+            "(abs[east - PLACE_X({v})] + abs[north - PLACE_Y({v})] < {least})",
+            "(max[abs[east - PLACE_X({v})], abs[north - PLACE_Y({v})]] < {least})",
+        ])  # fmt: skip
+        least = self.pick(["0.25", "0.5", "2.5"])
+        return Expr("bool", form.replace("{v}", self.scope[-1][0]).replace("{least}", least), ())
 
     def threshold(self, depth: int) -> Expr | None:
         """A sum of coefficients that have no exact doubles (in wild problems), and a limit."""
