@@ -94,21 +94,27 @@ struct Context<Objects<n, R>> {
     int faulty_lane = n;
     FaultRecord fault{};  // of the first of the lanes that have one
 
+    // Compilers keep what a call is given in memory. So the call in the rare branch gets a copy of
+    // the value, and neither the context nor what it refers to.
     template <class Value>
     RDDL_INLINE Mask<n> require(Mask<n> ok, FaultKind kind, Place place, const Value& value) {
-        if (any(active && !ok)) record(active && !ok, kind, place, value);
+        const Mask<n> failed = active && !ok;
+        if (any(failed)) [[unlikely]] {
+            const int lane = __builtin_ctzll(failed.bits);
+            if (lane < faulty_lane) {
+                const Value copy = value;
+                place.index += static_cast<std::uint32_t>(lane);
+                fault = {kind, place, value_in(copy, lane)};
+                faulty_lane = lane;
+            }
+        }
         return ok;
     }
 
   private:
     template <class Value>
-    [[gnu::noinline, gnu::cold]] void record(Mask<n> failed, FaultKind kind, Place place,
-                                             const Value& value) {
-        const int lane = __builtin_ctzll(failed.bits);
-        if (lane >= faulty_lane) return;
-        place.index += static_cast<std::uint32_t>(lane);
-        fault = {kind, place, get_lane(value, lane)};
-        faulty_lane = lane;
+    [[gnu::noinline, gnu::cold]] static double value_in(const Value& values, int lane) {
+        return get_lane(values, lane);
     }
 };
 
