@@ -1,3 +1,4 @@
+// Over 400 lines: a row for each pass.
 #include "passes/pipeline.hpp"
 
 #include "passes/aggregations/count_bits.hpp"
