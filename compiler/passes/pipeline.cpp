@@ -1,8 +1,10 @@
+// Over 400 lines: a row for each pass.
 #include "passes/pipeline.hpp"
 
 #include "passes/aggregations/count_bits.hpp"
 #include "passes/aggregations/count_bools.hpp"
 #include "passes/aggregations/count_factors.hpp"
+#include "passes/aggregations/decide_draws.hpp"
 #include "passes/aggregations/draw_over_objects.hpp"
 #include "passes/aggregations/factor_aggregations.hpp"
 #include "passes/aggregations/fuse_interm_fluents.hpp"
@@ -221,6 +223,12 @@ constexpr Pass in_order[] = {
      draws_summary,
      {"tabulate_constants"},
      "a table shows that its elements are probabilities"},
+    {"decide_draws",
+     Phase::Aggregations,
+     decide_draws,
+     "draws with a probability that is always 0 or 1 become conditions",
+     {"make_aggregations_sparse", "tabulate_constants"},
+     "a table of entries shows that its elements are 0 or 1"},
     {"skip_zero_terms",
      Phase::Aggregations,
      skip_zero_terms,

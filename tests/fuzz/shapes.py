@@ -135,6 +135,7 @@ class Shapes:
             (2, self.only_one), (1, self.in_an_interval), (2, self.threshold), (1, self.rounded_threshold),
             (2 if self.flavour.draws else 0, self.draw_in_branches),
             (2 if self.flavour.draws else 0, self.drawn_object),
+            (1 if self.flavour.draws else 0, self.certain_draw),
         ])(depth)  # fmt: skip
 
     def drawn_object(self, depth: int) -> Expr | None:
@@ -282,6 +283,20 @@ class Shapes:
             (first, second), (first, first), (Expr("bool", "false"), second), (first, Expr("bool", "true")),
         ])  # fmt: skip
         return Expr("bool", "(if (%s) then %s else %s)", (condition, *form))
+
+    def certain_draw(self, depth: int) -> Expr | None:
+        """With a probability of 0 or 1: a product over neighbours, which bools decide."""
+
+        def body(variables):
+            subject = self.over("bool", variables, CHANGING) or self.boolean(0)
+            return Expr("real", "1.0 - %s * %s", (subject, self.masked(variables, depth)))
+
+        found = self.over_objects(depth, "", body)
+        if found is None:
+            return None
+        binder, factor, _ = found
+        form = self.pick(["Bernoulli(1.0 - prod_{} [{}])", "Bernoulli(prod_{} [{}])"])
+        return Expr("bool", form.replace("{}", binder, 1).replace("{}", "%s"), (factor,))
 
     # ----------------------------------------------------------------------------- numbers
 

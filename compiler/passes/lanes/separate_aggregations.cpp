@@ -109,9 +109,8 @@ class Separation {
         }
         if (const auto* select = std::get_if<ir::Select>(&node.form))
             return find_aggregations(select->condition, variables, found) &&
-                   find_in_branch(select->then_value, is_rare(select->condition), variables,
-                                  found) &&
-                   find_in_branch(select->else_value, false, variables, found);
+                   find_in_branch(select->then_value, may_fill_then(*select), variables, found) &&
+                   find_in_branch(select->else_value, may_fill_else(*select), variables, found);
         return std::ranges::all_of(ir::operands_of(node), [&](ir::NodeId operand) {
             return find_aggregations(operand, variables, found);
         });
@@ -134,11 +133,20 @@ class Separation {
                std::ranges::any_of(ir::operands_of(program_[id]),
                                    [&](ir::NodeId operand) { return reads(operand, buffer); });
     }
+    // Where chance decides whether a branch is taken, or goes on in it, jumps are mispredicted.
+    bool may_fill_then(const ir::Select& select) const {
+        return is_by_chance(select, select.then_value) && !is_rare(select.condition);
+    }
+    bool may_fill_else(const ir::Select& select) const {
+        return is_by_chance(select, select.else_value);
+    }
+    bool is_by_chance(const ir::Select& select, ir::NodeId branch) const {
+        return builder_.properties(select.condition).random || builder_.properties(branch).random;
+    }
     // All objects compute those, also the objects that do not take the branch.
-    bool find_in_branch(ir::NodeId id, bool is_rare, const Variables& variables,
+    bool find_in_branch(ir::NodeId id, bool may_be_computed, const Variables& variables,
                         std::vector<ir::NodeId>& found) const {
         std::vector<ir::NodeId> inside;
-        const bool may_be_computed = builder_.properties(id).random && !is_rare;
         const auto is_cheap = [&](ir::NodeId each) {
             return may_be_computed && builder_.properties(each).cost <= most_in_branch;
         };

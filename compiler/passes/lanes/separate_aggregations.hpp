@@ -17,9 +17,10 @@
 //
 // So are the bools of an exists or forall.
 //
-// Aggregations in branches stay there, unless the branch draws, is not rare, and they take no
-// longer than a mispredicted jump. So do those that may fault. So no expensive term is computed
-// more often than before, except those of an exists or forall behind the first that decides.
+// Aggregations in branches stay there, unless the branch or its condition draws, the action does
+// not make the branch rare, and they take no longer than a mispredicted jump. So do those that may
+// fault. So no expensive term is computed more often than before, except those of an exists or
+// forall behind the first that decides.
 #pragma once
 
 #include "ir/ir.hpp"

@@ -65,6 +65,14 @@ TEST(SeparateAggregations, TakesCheapOnesOutOfBranchesThatDraw) {
         << text;
 }
 
+TEST(SeparateAggregations, TakesCheapOnesOutOfBranchesThatChanceDecides) {
+    const std::string text = step_of("if (Bernoulli(0.5)) then " + flow + " else depth(?x, ?y)");
+    EXPECT_NE(text.find("select(sample bernoulli@0[x * 3 + y](0.5), scratch.depth-part[x, y], "
+                        "state.depth[x, y])"),
+              std::string::npos)
+        << text;
+}
+
 TEST(SeparateAggregations, LeavesThoseOfRareBranches) {
     const std::string cpf = "if (go(?x, ?y)) then Normal(" + flow + ", 1) else depth(?x, ?y)";
     Problem problem = with_summed_pairs(cpf);
