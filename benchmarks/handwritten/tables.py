@@ -331,6 +331,25 @@ def intruders_discrete() -> list[str]:
     ]
 
 
+def tamarisk() -> list[str]:
+    values = values_of("Tamarisk_MDP_ippc2014", "10")
+    assert np.array_equal(values["SLOT-AT-REACH"], np.repeat(np.eye(8), 3, axis=0)), "three slots each"
+    assert np.array_equal(values["DOWNSTREAM-REACH"], np.eye(8, k=-1)), "reaches follow each other"
+    return [bit_sets(name, [values[f"{name}-at"]]) for name in ("tamarisk", "native")]
+
+
+def mars_rover() -> list[str]:
+    values = values_of("MarsRover_ippc2023", "3")
+    assert np.all(values["MAX-POWER"] == 0.1) and values["SCALE-FACTOR"] == 0.1
+    assert not np.any(values["vel-x"]) and not np.any(values["vel-y"])
+    tables = {"area": "MINERAL-AREA", "value": "MINERAL-VALUE", "mineral_x": "MINERAL-POS-X", "mineral_y": "MINERAL-POS-Y"}
+    return [
+        *(array(name, values[fluent]) for name, fluent in tables.items()),
+        array("x", values["pos-x"]),
+        array("y", values["pos-y"]),
+    ]
+
+
 TABLES = (
     mountain_car,
     sysadmin,
@@ -352,6 +371,8 @@ TABLES = (
     recsim,
     pizza,
     intruders_discrete,
+    tamarisk,
+    mars_rover,
 )
 
 
