@@ -56,6 +56,7 @@ REFERENCES = {
     "GameOfLife_MDP_ippc2011": Reference(GRIDS, "10", "game_of_life", "GameOfLife"),
     "Navigation_MDP_ippc2011": Reference(GRIDS, "10", "navigation", "Navigation"),
     "CrossingTraffic_MDP_ippc2014": Reference(GRIDS, "10", "crossing_traffic", "CrossingTraffic"),
+    "EarthObservation_ippc2018": Reference(GRIDS, "17", "earth_observation", "EarthObservation"),
     "SysAdmin_MDP_ippc2011": Reference(NETWORKS, "10", "sysadmin", "SysAdmin", True),
     "AcademicAdvising_MDP_ippc2014": Reference(NETWORKS, "10", "academic_advising", "AcademicAdvising"),
     "SkillTeaching_MDP_ippc2014": Reference(NETWORKS, "10", "skill_teaching", "SkillTeaching"),

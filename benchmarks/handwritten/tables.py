@@ -350,6 +350,31 @@ def mars_rover() -> list[str]:
     ]
 
 
+def earth_observation() -> list[str]:
+    values = values_of("EarthObservation_ippc2018", "17")
+    next_patches = np.zeros((96, 96, 3), dtype=bool)
+    for patch in range(96):
+        for direction, up in enumerate((1, -1, 0)):
+            if 0 <= patch % 12 + up < 12:
+                next_patches[patch, (patch + 12 + up) % 96, direction] = True
+    assert np.array_equal(values["CONNECTED"], next_patches), "columns of twelve around a cylinder"
+    visibility = values["visibility"]
+    high, medium, low = (
+        [float(values[f"{start}_TO_{end}_VIS"]) for end in ends]
+        for start, ends in (("HIGH", ("LOW", "MEDIUM")), ("MEDIUM", ("HIGH", "LOW")), ("LOW", ("HIGH", "MEDIUM")))
+    )
+    return [
+        integers("focal_point", values["is-focal-point"], "bool"),
+        integers("target", values["is-target"], "bool"),
+        integers("high", visibility == 0, "bool"),
+        integers("low", visibility == 2, "bool"),
+        array("failure", [values[f"FAILURE_PROB_{kind}_VIS"] for kind in ("HIGH", "MEDIUM", "LOW")]),
+        array("after_high", [1.0 - high[0] - high[1], 1.0 - high[0]]),
+        array("after_medium", [medium[0], 1.0 - medium[1]]),
+        array("after_low", [low[0], low[0] + low[1]]),
+    ]
+
+
 TABLES = (
     mountain_car,
     sysadmin,
@@ -373,6 +398,7 @@ TABLES = (
     intruders_discrete,
     tamarisk,
     mars_rover,
+    earth_observation,
 )
 
 
