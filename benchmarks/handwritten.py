@@ -59,6 +59,7 @@ REFERENCES = {
     "EarthObservation_ippc2018": Reference(GRIDS, "17", "earth_observation", "EarthObservation"),
     "SysAdmin_MDP_ippc2011": Reference(NETWORKS, "10", "sysadmin", "SysAdmin", True),
     "AcademicAdvising_MDP_ippc2014": Reference(NETWORKS, "10", "academic_advising", "AcademicAdvising"),
+    "AcademicAdvising_ippc2018": Reference(NETWORKS, "10", "academic_advising_2018", "AcademicAdvising2018"),
     "SkillTeaching_MDP_ippc2014": Reference(NETWORKS, "10", "skill_teaching", "SkillTeaching"),
     "TriangleTireworld_MDP_ippc2014": Reference(NETWORKS, "10", "triangle_tireworld", "TriangleTireworld"),
     "Tamarisk_MDP_ippc2014": Reference(NETWORKS, "10", "tamarisk", "Tamarisk"),

@@ -1,6 +1,8 @@
 """Prints the tables of the instances as C++ arrays, from the installed rddlrepository.
 
     python tables.py > tables.hpp
+
+Over 400 lines: a function for each instance, all of one kind.
 """
 
 import sys
@@ -375,6 +377,18 @@ def earth_observation() -> list[str]:
     ]
 
 
+def academic_advising_2018() -> list[str]:
+    values = values_of("AcademicAdvising_ippc2018", "10")
+    constants = {"COURSE_COST": -1, "COURSE_RETAKE_COST": -1, "PROGRAM_INCOMPLETE_PENALTY": -5}
+    assert all(np.all(values[name] == value) for name, value in constants.items())
+    return [
+        bit_sets("prerequisites", values["PREREQ"].T),
+        bit_sets("program", [values["PROGRAM_REQUIREMENT"]]),
+        array("prior", values["PRIOR_PROB_PASS"]),
+        array("alone", values["PRIOR_PROB_PASS_NO_PREREQ"]),
+    ]
+
+
 TABLES = (
     mountain_car,
     sysadmin,
@@ -399,6 +413,7 @@ TABLES = (
     tamarisk,
     mars_rover,
     earth_observation,
+    academic_advising_2018,
 )
 
 
