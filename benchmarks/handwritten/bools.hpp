@@ -114,6 +114,11 @@ struct Thresholds {
             all.of[k / 2 + k % 2 * half] = threshold(chances[k]);
         return all;
     }
+    static constexpr Thresholds equal(double chance) {
+        Thresholds all;
+        all.of.fill(threshold(chance));
+        return all;
+    }
     constexpr std::uint64_t operator[](std::size_t object) const {
         return of[object / 2 + object % 2 * half];
     }

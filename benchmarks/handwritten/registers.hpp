@@ -11,6 +11,10 @@ namespace handwritten {
 
 using rddl::all, rddl::any, rddl::select;
 
+inline std::uint64_t select(bool condition, std::uint64_t a, std::uint64_t b) {
+    return condition ? a : b;
+}
+
 // Objects of one environment that are computed together.
 inline constexpr int lanes_in_one = 8;
 

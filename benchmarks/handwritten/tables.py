@@ -1,6 +1,8 @@
 """Prints the tables of the instances as C++ arrays, from the installed rddlrepository.
 
     python tables.py > tables.hpp
+
+Over 400 lines: a function for each instance, all of one kind.
 """
 
 import sys
@@ -331,6 +333,62 @@ def intruders_discrete() -> list[str]:
     ]
 
 
+def tamarisk() -> list[str]:
+    values = values_of("Tamarisk_MDP_ippc2014", "10")
+    assert np.array_equal(values["SLOT-AT-REACH"], np.repeat(np.eye(8), 3, axis=0)), "three slots each"
+    assert np.array_equal(values["DOWNSTREAM-REACH"], np.eye(8, k=-1)), "reaches follow each other"
+    return [bit_sets(name, [values[f"{name}-at"]]) for name in ("tamarisk", "native")]
+
+
+def mars_rover() -> list[str]:
+    values = values_of("MarsRover_ippc2023", "3")
+    assert np.all(values["MAX-POWER"] == 0.1) and values["SCALE-FACTOR"] == 0.1
+    assert not np.any(values["vel-x"]) and not np.any(values["vel-y"])
+    tables = {"area": "MINERAL-AREA", "value": "MINERAL-VALUE", "mineral_x": "MINERAL-POS-X", "mineral_y": "MINERAL-POS-Y"}
+    return [
+        *(array(name, values[fluent]) for name, fluent in tables.items()),
+        array("x", values["pos-x"]),
+        array("y", values["pos-y"]),
+    ]
+
+
+def earth_observation() -> list[str]:
+    values = values_of("EarthObservation_ippc2018", "17")
+    next_patches = np.zeros((96, 96, 3), dtype=bool)
+    for patch in range(96):
+        for direction, up in enumerate((1, -1, 0)):
+            if 0 <= patch % 12 + up < 12:
+                next_patches[patch, (patch + 12 + up) % 96, direction] = True
+    assert np.array_equal(values["CONNECTED"], next_patches), "columns of twelve around a cylinder"
+    visibility = values["visibility"]
+    high, medium, low = (
+        [float(values[f"{start}_TO_{end}_VIS"]) for end in ends]
+        for start, ends in (("HIGH", ("LOW", "MEDIUM")), ("MEDIUM", ("HIGH", "LOW")), ("LOW", ("HIGH", "MEDIUM")))
+    )
+    return [
+        integers("focal_point", values["is-focal-point"], "bool"),
+        integers("target", values["is-target"], "bool"),
+        integers("high", visibility == 0, "bool"),
+        integers("low", visibility == 2, "bool"),
+        array("failure", [values[f"FAILURE_PROB_{kind}_VIS"] for kind in ("HIGH", "MEDIUM", "LOW")]),
+        array("after_high", [1.0 - high[0] - high[1], 1.0 - high[0]]),
+        array("after_medium", [medium[0], 1.0 - medium[1]]),
+        array("after_low", [low[0], low[0] + low[1]]),
+    ]
+
+
+def academic_advising_2018() -> list[str]:
+    values = values_of("AcademicAdvising_ippc2018", "10")
+    constants = {"COURSE_COST": -1, "COURSE_RETAKE_COST": -1, "PROGRAM_INCOMPLETE_PENALTY": -5}
+    assert all(np.all(values[name] == value) for name, value in constants.items())
+    return [
+        bit_sets("prerequisites", values["PREREQ"].T),
+        bit_sets("program", [values["PROGRAM_REQUIREMENT"]]),
+        array("prior", values["PRIOR_PROB_PASS"]),
+        array("alone", values["PRIOR_PROB_PASS_NO_PREREQ"]),
+    ]
+
+
 TABLES = (
     mountain_car,
     sysadmin,
@@ -352,6 +410,10 @@ TABLES = (
     recsim,
     pizza,
     intruders_discrete,
+    tamarisk,
+    mars_rover,
+    earth_observation,
+    academic_advising_2018,
 )
 
 

@@ -40,12 +40,17 @@ struct Scope {
     Relation relation = {};  // by axes that choose the row, then those of its columns
     std::size_t row_axes = 0;
     bool has_row_an_entry = false;  // the rows are the entries of `outer`; else all there may be
+    std::vector<std::int64_t> padded = {};  // a tuple for each row, if rows of one entry are padded
     ir::NodeId entry = {};
     std::string name = {};  // of its tables
     Span span = {};
     std::map<ir::NodeId, ir::NodeId> done = {};
 
     std::span<const Axis> axes() const { return relation.axes; }
+    // The tables have values for these.
+    std::span<const std::int64_t> tuples() const {
+        return padded.empty() ? relation.tuples : padded;
+    }
     std::span<const Axis> rows() const { return axes().first(row_axes); }
     std::span<const Axis> columns() const { return axes().subspan(row_axes); }
 };
@@ -137,7 +142,7 @@ class Rewriting {
         const auto axis = std::ranges::find(scope.axes(), variable, &Axis::variable);
         const auto place = static_cast<std::size_t>(axis - scope.axes().begin());
         std::vector<ir::Value> values;
-        for (const std::int64_t entry : scope.relation.tuples) {
+        for (const std::int64_t entry : scope.tuples()) {
             values.emplace_back(values_of(entry, scope.axes())[place]);
         }
         return load("-" + program_[variable].name, ir::Scalar::Int, std::move(values), scope);
@@ -164,8 +169,8 @@ class Rewriting {
     // The node's values for the entries, unless it faults for some.
     std::optional<ir::NodeId> tabulated(ir::NodeId id, const Scope& scope) {
         std::vector<ir::Value> values;
-        values.reserve(scope.relation.tuples.size());
-        for (const std::int64_t entry : scope.relation.tuples) {
+        values.reserve(scope.tuples().size());
+        for (const std::int64_t entry : scope.tuples()) {
             const auto value = pattern_.evaluate(id, scope.axes(), entry);
             if (!value) return std::nullopt;
             values.push_back(*value);
@@ -183,16 +188,15 @@ class Rewriting {
         if (!finds_only_int(id, scope, chooser) || !chooser) return std::nullopt;
         const Range range = *builder_.properties(*chooser).range;
         const auto cases = static_cast<std::size_t>(range.upper - range.lower) + 1;
-        std::vector<ir::Value> values(scope.relation.tuples.size() * cases);
+        std::vector<ir::Value> values(scope.tuples().size() * cases);
         if (static_cast<std::int64_t>(values.size()) >= most_by_int(id)) return std::nullopt;
         const auto least = static_cast<std::int64_t>(range.lower);
         for (std::size_t k = 0; k < cases; ++k) {
             const auto value_of_int = builder_.constant(least + static_cast<std::int64_t>(k));
             std::map<ir::NodeId, ir::NodeId> known = {{*chooser, value_of_int}};
             const ir::NodeId of_case = ir::replace_in(builder_, id, known);
-            for (std::size_t entry = 0; entry < scope.relation.tuples.size(); ++entry) {
-                const auto value =
-                    pattern_.evaluate(of_case, scope.axes(), scope.relation.tuples[entry]);
+            for (std::size_t entry = 0; entry < scope.tuples().size(); ++entry) {
+                const auto value = pattern_.evaluate(of_case, scope.axes(), scope.tuples()[entry]);
                 if (!value) return std::nullopt;
                 values[entry * cases + k] = *value;
             }
@@ -264,6 +268,7 @@ class Rewriting {
         const ir::Reduce reduce = std::get<ir::Reduce>(program_[id].form);
         const auto neutral = ir::fold_empty(reduce.op, program_[reduce.body].type);
         if (!neutral) return std::nullopt;
+        if (const auto decided = decided_by_constants(*nest, outer)) return decided;
         std::vector<ir::NodeId> doubtful;
         std::optional<Relation> found = pattern_.of(nest->body, *neutral);
         if (!found && reduce.op == Reduction::Sum) found = pattern_.of_term(reduce.body, doubtful);
@@ -283,6 +288,20 @@ class Rewriting {
         ++report_["aggregations made sparse"];
         name(scope, body);
         return with_terms_left_out(over_entries(nest->op, body, scope), doubtful, outer);
+    }
+
+    // A forall that constants make false for one object at least, whatever its row; an exists that
+    // they make true.
+    std::optional<ir::NodeId> decided_by_constants(const ir::ReductionNest& nest, Scope& outer) {
+        if (nest.op != Reduction::ForAll && nest.op != Reduction::Exists) return std::nullopt;
+        if (!ir::is_droppable(builder_.properties(nest.body))) return std::nullopt;
+        const bool decisive = nest.op == Reduction::Exists;
+        const std::optional<Relation> undecided = pattern_.of(nest.body, decisive);
+        if (!undecided) return std::nullopt;
+        const Scope scope = scope_for(*undecided, nest.variables, outer);
+        if (!lacks_entries_in_each_row(scope)) return std::nullopt;
+        ++report_["aggregations decided by constants"];
+        return builder_.constant(decisive);
     }
 
     // Factors that depend on the variable of a sum alone are tested once for all rows: if all of
@@ -345,7 +364,7 @@ class Rewriting {
 
     static bool lacks_entries_in_each_row(const Scope& scope) {
         const auto columns = volume(scope.columns());
-        if (!columns) return false;
+        if (!columns || *columns == 0) return false;
         std::int64_t row = -1, count = 0;
         return std::ranges::none_of(scope.relation.tuples, [&](std::int64_t tuple) {
             count = tuple / *columns == row ? count + 1 : 1;
@@ -397,6 +416,9 @@ class Rewriting {
             scope.entry = row_of(scope);
             return builder_.aggregated(op, rewritten(body, scope));
         }
+        if (has_at_most_one_entry_a_row(begins) && !scope.columns().empty() &&
+            ir::is_droppable(builder_.properties(body)))
+            return of_only_entries(op, body, scope, begins);
         const ir::VariableId variable = tables_.variable(scope.relation.count(), height_of(body));
         scope.entry = builder_.index(variable);
         if (scope.row_axes == 0) return builder_.reduce(op, variable, rewritten(body, scope));
@@ -432,6 +454,46 @@ class Rewriting {
         return true;
     }
 
+    // Few rows are empty.
+    static bool has_at_most_one_entry_a_row(const std::vector<ir::Value>& begins) {
+        const auto begin = [&](std::size_t row) {
+            return std::get<std::int64_t>(begins[row]);
+        };
+        const std::size_t rows = begins.size() - 1;
+        for (std::size_t row = 0; row < rows; ++row) {
+            if (begin(row + 1) - begin(row) > 1) return false;
+        }
+        return rows > 0 && 2 * begin(rows) >= static_cast<std::int64_t>(rows);
+    }
+
+    // Rows that are empty get an entry of any objects, which a test leaves out: so the rows are the
+    // entries. Tables repeat their neighbours there, since values that are the same for all others
+    // need no table.
+    ir::NodeId of_only_entries(Reduction op, ir::NodeId body, Scope& scope,
+                               const std::vector<ir::Value>& begins) {
+        const std::vector<std::int64_t> entries = std::move(scope.relation.tuples);
+        std::vector<ir::Value> are_there;
+        scope.relation.tuples.clear();
+        for (std::size_t row = 0; row + 1 < begins.size(); ++row) {
+            const auto entry = static_cast<std::size_t>(std::get<std::int64_t>(begins[row]));
+            const bool is_there = begins[row] != begins[row + 1];
+            are_there.emplace_back(is_there);
+            scope.padded.push_back(entries[std::min(entry, entries.size() - 1)]);
+            scope.relation.tuples.push_back(
+                is_there ? entries[entry] : tuple_of_row(scope, row) * *volume(scope.columns()));
+        }
+        scope.entry = row_of(scope);
+        const ir::NodeId is_there =
+            load("-is-there", ir::Scalar::Bool, std::move(are_there), scope);
+        const ir::NodeId value = builder_.aggregated(op, rewritten(body, scope));
+        const ir::Value neutral = *ir::fold_empty(op, program_[value].type);
+        return builder_.select(is_there, value, builder_.constant(neutral));
+    }
+    static std::int64_t tuple_of_row(const Scope& scope, std::size_t row) {
+        return scope.has_row_an_entry ? scope.outer->relation.tuples[row]
+                                      : static_cast<std::int64_t>(row);
+    }
+
     ir::Bounds bounds_of_row(const Scope& scope, const std::vector<ir::Value>& row_begins) {
         const ir::BufferId begins =
             tables_.table(scope.name + "-rows", ir::Scalar::Int, row_begins, scope.span);
@@ -465,9 +527,7 @@ class Rewriting {
         begins.reserve(static_cast<std::size_t>(rows) + 1);
         auto entry = entries.begin();
         for (std::int64_t k = 0; k < rows; ++k) {
-            const std::int64_t row = scope.has_row_an_entry
-                                         ? scope.outer->relation.tuples[static_cast<std::size_t>(k)]
-                                         : k;
+            const std::int64_t row = tuple_of_row(scope, static_cast<std::size_t>(k));
             while (entry != entries.end() && *entry / columns < row) ++entry;
             begins.emplace_back(std::int64_t{entry - entries.begin()});
         }

@@ -19,6 +19,17 @@
 //     sum[entry-2 in cell](sum[entry in RATE-rows[entry-2] .. RATE-rows[entry-2 + 1]](
 //         RATE-entries[entry] * real(state.on[RATE-y[entry]])))
 //
+// Where a row has one entry at most, and few have none, there is no loop over entries:
+//
+//     prod[d in computer](select(LINK[c, d] && state.up[d], 0.5, 1.0))
+//                                       =>
+//     select(LINK-is-there[c], select(state.up[LINK-d[c]], 0.5, 1.0), 1.0)
+//
+// Where constants make a term of each row false, a forall is false; an exists is true if they make
+// one true:
+//
+//     forall[d in computer](LINK[c, d] && state.up[d])   =>   false
+//
 // Entries are in the order of the objects, and the omitted ones would have added 0, multiplied by 1
 // and so on. A zero times a factor that may be inf would have added nan; if the factor is the same
 // for all objects, one such term stands for all omitted ones:

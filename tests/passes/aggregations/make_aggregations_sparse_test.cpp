@@ -232,12 +232,43 @@ TEST(MakeAggregationsSparse, LeavesOutWhatNoIndexOfATableChooses) {
         "RATE(?o, ?u, season) * RATE(?o, ?u, season))])]");
     const ir::Program program = made_sparse(of_moderate_values(problem));
     EXPECT_EQ(value_of_x(program),
-              "sum[o in obj](state.v[o] * prod[entry in RATE-rows[o] .. RATE-rows[o + 1]](1.0 - "
-              "real(int(state.p[RATE-u[entry]]) * int(state.q[RATE-u[entry]])) * "
-              "RATE-entries[entry, state.season]))");
-    EXPECT_EQ(table_text(program, "RATE-rows"), "RATE-rows[4]: int = {0 1 1 2}");
+              "sum[o in obj](state.v[o] * select(RATE-is-there[o], 1.0 - "
+              "real(int(state.p[RATE-u[o]]) * int(state.q[RATE-u[o]])) * "
+              "RATE-entries[o, state.season], 1.0))");
     EXPECT_EQ(table_text(program, "RATE-entries"),
-              "RATE-entries[2, 3]: real = {0.3125 0.0 0.75 0.0 1.3125 0.0}");
+              "RATE-entries[3, 3]: real = {0.3125 0.0 0.75 0.0 1.3125 0.0 0.0 1.3125 0.0}");
+}
+
+// Two rows have an entry, and one has none.
+Problem with_ways(const std::string& cpf_of_x) {
+    Problem problem = with_links(cpf_of_x);
+    problem.pvariables += "WAY(obj, obj) : { non-fluent, real, default = 0.0 };";
+    problem.non_fluents += "WAY(b1, b2) = 0.5; WAY(b3, b1) = 0.5;";
+    return problem;
+}
+
+TEST(MakeAggregationsSparse, TakesTheOnlyEntryOfARow) {
+    const ir::Program program = made_sparse(of_moderate_values(with_ways(
+        "sum_{?o : obj} [v(?o) * (prod_{?u : obj} [1.0 - p(?u) * q(?u) * WAY(?o, ?u)])]")));
+    EXPECT_EQ(value_of_x(program),
+              "sum[o in obj](state.v[o] * select(WAY-is-there[o], 1.0 - "
+              "real(int(state.p[WAY-u[o]]) * int(state.q[WAY-u[o]])) * 0.5, 1.0))");
+    EXPECT_EQ(table_text(program, "WAY-is-there"), "WAY-is-there[3]: bool = {true false true}");
+    EXPECT_EQ(table_text(program, "WAY-u"), "WAY-u[3]: int = {1 0 0}");
+}
+
+TEST(MakeAggregationsSparse, KnowsWhatConstantsDecide) {
+    EXPECT_EQ(sparse("sum_{?o : obj} [v(?o) * (forall_{?u : obj} [LINK(?o, ?u) ^ p(?u)])]"),
+              "sum[o in obj](state.v[o] * 0.0)");
+    EXPECT_EQ(sparse("sum_{?o : obj} [v(?o) * (exists_{?u : obj} [~LINK(?o, ?u) | p(?u)])]"),
+              "sum[o in obj](state.v[o])");
+}
+
+TEST(MakeAggregationsSparse, LeavesWhatConstantsDecideInSomeRows) {
+    EXPECT_EQ(sparse("sum_{?o : obj} [v(?o) * (forall_{?u : obj} [(LINK(?o, ?u) | COST(?o) > 1.0) "
+                     "^ p(?u)])]"),
+              "sum[o in obj](state.v[o] * real(forall[u in obj]((LINK[o, u] || COST[o] > 1.0) && "
+              "state.p[u])))");
 }
 
 TEST(MakeAggregationsSparse, LeavesDenseTables) {
