@@ -7,7 +7,7 @@
 Steps are those that the planner reports (--explain-decisions). The time is that of decisions with many steps less that of decisions
 with few; the best of some repetitions counts. --prost FOLDER, which is PROST after its build.py, compares trials of plan:uct with
 those of PROST instead: decisions of the same seconds, both on one thread, counted by processor time. --write puts the
-table into docs/planning.md.
+table into docs/planning.md, beside the rows and columns there that were not measured.
 """
 
 import argparse
@@ -19,7 +19,7 @@ import tempfile
 from pathlib import Path
 
 from compare_all import prost_session
-from document import markdown_table, write_section
+from document import markdown_table, merged_rows, write_section
 
 ROOT = Path(__file__).resolve().parents[2]
 DISCRETE = ["Elevators_MDP_ippc2011", "GameOfLife_MDP_ippc2011", "SysAdmin_MDP_ippc2011"]
@@ -79,7 +79,7 @@ def steps_table(arguments):
             shares[problem, planner] = f"{rate / 1e6:.3g} M ({100 * rate / engine[problem]:.2g} %)"
             print(problem, planner, shares[problem, planner], sep="  ", flush=True)
     rows = [(f"{problem} 1", *(shares.get((problem, planner), "") for planner, _ in planners)) for problem in engine]
-    return markdown_table([("problem", *(f"`{planner}`" for planner, _ in planners)), *rows])
+    return [("problem", *(f"`{planner}`" for planner, _ in planners)), *rows]
 
 
 def trial_rate(few, many):
@@ -112,7 +112,7 @@ def trials_table(arguments):
             ratio = f"{rates[0] / rates[1]:.1f}" if all(rates) else ""
             rows.append((f"{domain} {instance}", f"{ours[1][2] / ours[1][1]:.1f}", *map(text, rates), ratio))
             print(*rows[-1], sep="  ", flush=True)
-    return markdown_table(rows)
+    return rows
 
 
 def main():
@@ -126,13 +126,13 @@ def main():
     parser.add_argument("--seed", type=int, default=0)
     options = parser.parse_args()
     if options.prost:
-        name, table = "trials", trials_table(options)
+        name, rows = "trials", trials_table(options)
     else:
-        name, table = "steps of planners", steps_table(options)
+        name, rows = "steps of planners", steps_table(options)
     if options.write:
-        write_section(name, table)
+        write_section(name, markdown_table(merged_rows(name, rows)))
     else:
-        print(table)
+        print(markdown_table(rows))
 
 
 if __name__ == "__main__":

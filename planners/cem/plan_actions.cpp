@@ -18,6 +18,8 @@ RealScale scale_of(const RealHead& head, const solvers::ActionSpace& space,
             head.upper,
             head.scale,
             head.centre,
+            head.least(),
+            head.most(),
             space.defaults[static_cast<std::size_t>(head.column)],
             records.default_value(head.column)};
 }

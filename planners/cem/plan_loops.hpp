@@ -26,6 +26,7 @@ struct RealScale {
     solvers::RealHead::Range range;  // not Squashed
     bool rounds;
     double lower, upper, scale, centre;
+    double least, most;  // what values are limited to
     float short_default;
     double exact_default;
 };

@@ -121,8 +121,7 @@ inline void real_values(const RealScale& real, const float* numbers, std::size_t
     const double half_width = 0.5 * (upper - lower);
     const float short_default = real.short_default;
     const double exact_default = real.exact_default;
-    // One clamp to the bounds and to +-1e9, since ints may not be anything.
-    const double least = clamped(-1e9, lower, upper), most = clamped(1e9, lower, upper);
+    const double least = real.least, most = real.most;
     const auto finished = [=](double value) {
         const auto rounded = static_cast<float>(clamped(value, least, most));
         // The float next to a bound may lie beyond it.

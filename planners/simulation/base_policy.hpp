@@ -30,6 +30,9 @@ class BasePolicy {
     void act(Futures& futures, std::span<const std::uint8_t> wanted, std::byte* actions,
              const solvers::Stops* stops);
 
+    // Whether all actions are the same, so that those of one step serve for all that follow.
+    bool is_constant() const { return policy_.is_constant; }
+
   private:
     void restart(std::int64_t episode, std::int64_t horizon,
                  std::span<const std::uint64_t> numbers);

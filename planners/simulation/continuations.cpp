@@ -55,7 +55,7 @@ bool Continuations::run(const DecisionPoint& point, std::span<const Start> start
     for (depth_ = 0; futures_.any_running(); ++depth_) {
         if (depth_ == 0)
             policy.act(futures_, wanted_, actions_.data(), point.stops);
-        else
+        else if (depth_ == 1 || !policy.is_constant())
             policy.act(futures_, actions_.data(), point.stops);
         if (depth_ == 0) first_actions_ = actions_;
         if (depth_ % 4 == 0 && meter.is_late()) return false;

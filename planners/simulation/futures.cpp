@@ -36,7 +36,7 @@ void Futures::begin(const Origin& origin, std::span<const std::uint64_t> streams
     require_done(simulator_, simulator_.copy_environments(batch_.get(), 0, count(), origin.batch,
                                                           sources_.data()));
     require_done(simulator_, simulator_.set_seeds(batch_.get(), 0, count(), streams.data()));
-    look_at_causes();
+    look_at_causes(origin.count == 1);
     std::ranges::fill(returns_, 0.0);
     std::ranges::fill(cut_, std::uint8_t{0});
     std::ranges::fill(limits_, no_limit);
@@ -47,11 +47,14 @@ void Futures::begin(const Origin& origin, std::span<const std::uint64_t> streams
 
 void Futures::place(const std::byte* states, std::span<const std::int64_t> steps) {
     require_done(simulator_, simulator_.set_state(batch_.get(), 0, count(), states, steps.data()));
-    look_at_causes();
+    look_at_causes(false);
 }
 
-void Futures::look_at_causes() {
-    require_done(simulator_, simulator_.get_causes(batch_.get(), 0, count(), causes_.data()));
+// Where all are copies of one environment, the first one says it for all.
+void Futures::look_at_causes(bool are_alike) {
+    require_done(simulator_,
+                 simulator_.get_causes(batch_.get(), 0, are_alike ? 1 : count(), causes_.data()));
+    if (are_alike) std::ranges::fill(causes_, causes_.front());
     running_count_ = 0;
     for (std::size_t k = 0; k < running_.size(); ++k)
         running_count_ += running_[k] = causes_[k] == RDDL_RUNNING;
@@ -105,23 +108,32 @@ void Futures::take_step() {
     discount_ *= simulator_.problem->discount;
 }
 
+// Works on copies of the members: a byte that is stored might else be a part of any of them.
 void Futures::take_any_step() {
-    running_count_ = 0;
-    next_limit_ = no_limit;
-    for (std::size_t k = 0; k < running_.size(); ++k) {
-        if (!running_[k]) {
-            rewards_[k] = 0;
+    const std::int64_t made = made_ + 1;
+    const double discount = discount_;
+    const std::uint8_t* const causes = causes_.data();
+    const std::int64_t* const limits = limits_.data();
+    double *const rewards = rewards_.data(), *const returns = returns_.data();
+    double* const last_rewards = last_rewards_.data();
+    std::uint8_t *const running = running_.data(), *const cut = cut_.data();
+    std::int64_t running_count = 0, next_limit = no_limit;
+    for (std::size_t k = 0, lanes = running_.size(); k < lanes; ++k) {
+        if (!running[k]) {
+            rewards[k] = 0;
             continue;
         }
-        const bool is_bad = (causes_[k] & RDDL_FAULTED) || !std::isfinite(rewards_[k]);
-        if (is_bad) rewards_[k] = -std::numeric_limits<double>::infinity();
-        returns_[k] += discount_ * rewards_[k];
-        last_rewards_[k] = rewards_[k];
-        const bool goes_on = !is_bad && causes_[k] == RDDL_RUNNING;
-        cut_[k] = goes_on && made_ + 1 >= limits_[k];
-        running_count_ += running_[k] = goes_on && !cut_[k];
-        if (running_[k]) next_limit_ = std::min(next_limit_, limits_[k]);
+        const bool is_bad = (causes[k] & RDDL_FAULTED) || !std::isfinite(rewards[k]);
+        if (is_bad) rewards[k] = -std::numeric_limits<double>::infinity();
+        returns[k] += discount * rewards[k];
+        last_rewards[k] = rewards[k];
+        const bool goes_on = !is_bad && causes[k] == RDDL_RUNNING;
+        cut[k] = goes_on && made >= limits[k];
+        running_count += running[k] = goes_on && !cut[k];
+        if (running[k]) next_limit = std::min(next_limit, limits[k]);
     }
+    running_count_ = running_count;
+    next_limit_ = next_limit;
 }
 
 }  // namespace rddlc::planners

@@ -68,7 +68,7 @@ class Futures {
   private:
     static constexpr std::int64_t no_limit = std::numeric_limits<std::int64_t>::max();
     rddl_transition outputs();
-    void look_at_causes();
+    void look_at_causes(bool are_alike);
     void take_step();
     bool take_plain_step();
     void take_any_step();

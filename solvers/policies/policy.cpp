@@ -75,6 +75,7 @@ Policy noop_policy(const rddl_simulator& simulator) {
     };
     Policy policy{"noop", spaces_of(simulator), start};
     policy.is_memoryless = true;
+    policy.is_constant = true;
     return policy;
 }
 

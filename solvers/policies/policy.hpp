@@ -62,6 +62,7 @@ struct Policy {
     double value_discount = 1;  // of the rewards that these estimates sum up
     // Its actors do what their arguments say alone, so that one may go on to other episodes.
     bool is_memoryless = false;
+    bool is_constant = false;  // it takes the same action in all steps
 };
 
 // Throws a Failure where the policy is of other spaces than those of the simulator.

@@ -34,7 +34,7 @@ inline double value_of_real(const RealHead& head, double number) {
             value = head.centre + head.scale * number;
             break;
     }
-    value = std::clamp(value, -1e9, 1e9);  // noise may be anything, ints may not
+    value = std::clamp(value, head.least(), head.most());  // noise may be anything
     return std::clamp(head.rounds ? std::nearbyint(value) : value, head.lower, head.upper);
 }
 

@@ -16,6 +16,7 @@
 #include <rddl/simulator.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -35,6 +36,18 @@ struct RealHead {
     double scale = 1;   // of the others: lower + scale * softplus(u), or
     double centre = 0;  // centre + scale * u
     int choice = -1;    // with sub-actions: the choice that sets it
+
+    // Values are limited to the bounds; in a direction without one to 1e9, or twice the other bound
+    // where that is more.
+    double least() const { return limit(lower, std::min(-1e9, 2 * upper)); }
+    double most() const { return limit(upper, std::max(1e9, 2 * lower)); }
+
+  private:
+    // Ints stay within 64 bits, also when they are rounded to a float.
+    double limit(double bound, double otherwise) const {
+        const double found = std::isfinite(bound) ? bound : otherwise;
+        return rounds ? std::clamp(found, -9e18, 9e18) : found;
+    }
 };
 
 // The values of a bool, an object or an int; or which bool of a group changes.

@@ -1,4 +1,4 @@
-"""Tests of the programs in benchmarks/.
+"""Tests of the programs in benchmarks/. Over 400 lines: a class for each program.
 
     test_benchmarks.py RDDL
 """
@@ -386,6 +386,17 @@ class Document(unittest.TestCase):
             with patch.object(document, "DOCUMENTS", [page]), contextlib.redirect_stdout(io.StringIO()):
                 document.write_section("x", "new")
             self.assertEqual(page.read_text(), "a\n<!-- begin of x -->\n\nnew\n\n<!-- end of x -->\nb\n")
+
+    def test_keeps_cells_that_were_not_measured(self):
+        with tempfile.TemporaryDirectory() as folder:
+            page = Path(folder) / "page.md"
+            table = document.markdown_table([("name", "a", "b"), ("p", "1", "2"), ("q", "3", "")])
+            page.write_text(f"<!-- begin of x -->\n\n{table}\n\n<!-- end of x -->\n")
+            with patch.object(document, "DOCUMENTS", [page]):
+                merged = document.merged_rows("x", [("name", "b"), ("p", "5"), ("r", "6")])
+                self.assertEqual(merged, [("name", "a", "b"), ("p", "1", "5"), ("q", "3", ""), ("r", "", "6")])
+                with self.assertRaisesRegex(SystemExit, "no document has a section 'y'; there are: x"):
+                    document.write_section("y", "new")
 
     def test_sections_of_the_pages_exist(self):
         text = "".join(page.read_text() for page in document.DOCUMENTS)

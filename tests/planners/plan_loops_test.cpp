@@ -25,7 +25,7 @@ const PlanLoops& loops_of(const char* instruction_set) {
 constexpr std::size_t plans = 77;
 
 RealScale scale_of_range(solvers::RealHead::Range range, bool rounds) {
-    return {range, rounds, -2.5, 7.25, 3, 0.5, 0.1f, 0.1};
+    return {range, rounds, -2.5, 7.25, 3, 0.5, -2.5, 7.25, 0.1f, 0.1};
 }
 
 TEST(PlanLoops, ComputeTheSameBitsOnAllInstructionSets) {
@@ -105,9 +105,9 @@ TEST(PlanLoops, GiveRealsTheirValues) {
         std::vector<float> numbers;
         for (float u = -200; u < 200; u += 0.37f) numbers.push_back(u);
         std::vector<double> values(numbers.size());
-        plan_loops().real_values(
-            {range, false, head.lower, head.upper, head.scale, head.centre, 0.1f, 0.1},
-            numbers.data(), numbers.size(), values.data());
+        plan_loops().real_values({range, false, head.lower, head.upper, head.scale, head.centre,
+                                  head.least(), head.most(), 0.1f, 0.1},
+                                 numbers.data(), numbers.size(), values.data());
         for (std::size_t k = 0; k < numbers.size(); ++k) {
             const double expected = solvers::real_value(head, static_cast<double>(numbers[k]));
             EXPECT_NEAR(values[k], expected, 1e-5 * (1 + std::abs(expected))) << numbers[k];
@@ -116,20 +116,21 @@ TEST(PlanLoops, GiveRealsTheirValues) {
     // 0.1f is beyond a bound of 0.1.
     const float upmost = 1;
     double bound = 0;
-    plan_loops().real_values({Range::Bounded, false, -0.1, 0.1, 1, 0, 0.0f, 0.0}, &upmost, 1,
-                             &bound);
+    plan_loops().real_values({Range::Bounded, false, -0.1, 0.1, 1, 0, -0.1, 0.1, 0.0f, 0.0},
+                             &upmost, 1, &bound);
     EXPECT_EQ(bound, 0.1);
     // Ints are within 1e9 also where they have no bounds.
     const float huge = 1e30f;
     double most = 0;
-    plan_loops().real_values({Range::Free, true, -infinity, infinity, 1, 0, 0.0f, 0.0}, &huge, 1,
-                             &most);
+    plan_loops().real_values({Range::Free, true, -infinity, infinity, 1, 0, -1e9, 1e9, 0.0f, 0.0},
+                             &huge, 1, &most);
     EXPECT_EQ(most, 1e9);
     // A value that is the default as a float is the default itself.
     const float middle = 0;
     double value = 0;
-    plan_loops().real_values({Range::Free, false, -infinity, infinity, 1, 0.1, 0.1f, 0.1}, &middle,
-                             1, &value);
+    plan_loops().real_values(
+        {Range::Free, false, -infinity, infinity, 1, 0.1, -1e9, 1e9, 0.1f, 0.1}, &middle, 1,
+        &value);
     EXPECT_EQ(value, 0.1);
 }
 

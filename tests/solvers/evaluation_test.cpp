@@ -99,5 +99,27 @@ TEST(Spaces, NumbersOfRealsMeanWhatTheirRangesSay) {
     EXPECT_EQ(real_value(head, 0.46), 4);
 }
 
+// Without a bound a value ends at 1e9, but not where the other bound lies beyond that.
+TEST(Spaces, BoundsMayBeFarAway) {
+    RealHead head;
+    head.range = RealHead::Range::Bounded;
+    head.upper = 4e12;
+    EXPECT_EQ(real_value(head, 0), 2e12);
+    EXPECT_EQ(real_value(head, 1), 4e12);
+    head.range = RealHead::Range::AboveLower;
+    head.lower = 1e12;
+    head.upper = INFINITY;
+    EXPECT_EQ(real_value(head, 1000), 1e12 + 1000);
+    EXPECT_EQ(real_value(head, 1e15), 2e12);
+    head.lower = 3;
+    EXPECT_EQ(real_value(head, 1e15), 1e9);
+    head.range = RealHead::Range::Bounded;
+    head.rounds = true;
+    head.lower = -0x1p63;
+    head.upper = 0x1p63;
+    EXPECT_EQ(real_value(head, 1), 9e18);
+    EXPECT_EQ(real_value(head, -1), -9e18);
+}
+
 }  // namespace
 }  // namespace rddlc::solvers
