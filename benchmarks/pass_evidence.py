@@ -20,7 +20,7 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 
 from bench import Results, bench, geometric_mean, print_row
-from document import ROOT, machine_text, markdown_table, write_section
+from document import ROOT, machine_text, markdown_table, merged_rows, write_section
 
 sys.path.append(str(ROOT / "tests/conformance"))
 from problems import Case, cases_of  # noqa: E402
@@ -125,12 +125,12 @@ TITLES = ("pass", "instances", "problems", "costs more", "timed", "one environme
 def row(name: str, firings: list[Firing], worths: list[Worth]) -> tuple[str, ...]:
     problems = len({firing.problem for firing in firings})
     worse = sum(firing.operations_after > firing.operations_before for firing in firings)
-    ratios = ("", "")
-    if worths:
-        alone = geometric_mean([worth.alone_without / worth.alone for worth in worths])
-        in_batch = geometric_mean([worth.in_batch_without / worth.in_batch for worth in worths])
-        ratios = (f"{alone:.2f}", f"{in_batch:.2f}")
-    return (f"`{name}`", str(len(firings)), str(problems), str(worse), str(len(worths)), *ratios)
+    counts = (f"`{name}`", str(len(firings)), str(problems), str(worse))
+    if not worths:
+        return counts
+    alone = geometric_mean([worth.alone_without / worth.alone for worth in worths])
+    in_batch = geometric_mean([worth.in_batch_without / worth.in_batch for worth in worths])
+    return (*counts, str(len(worths)), f"{alone:.2f}", f"{in_batch:.2f}")
 
 
 def parse_options() -> argparse.Namespace:
@@ -146,7 +146,7 @@ def parse_options() -> argparse.Namespace:
     parser.add_argument("--results", type=Path, default=default, help="file for the times, which are kept")
     parser.add_argument("--fresh", action="store_true", help="measure all times again")
     parser.add_argument("--json", type=Path, help="file for what fired where")
-    parser.add_argument("--write", action="store_true", help="write docs/benchmarks.md")
+    parser.add_argument("--write", action="store_true", help="write docs/benchmarks.md, whose other times stay")
     return parser.parse_args()
 
 
@@ -172,10 +172,10 @@ def main() -> int:
         table.append(row(name, fired, worths))
         print_row(table[-1])
     if options.write:
-        columns = len(TITLES) if options.time else TITLES.index("timed")
-        shown = [cells[:columns] for cells in table]
-        machine = f"; {machine_text()}" if options.time else ""
-        write_section("evidence", f"{instances} instances{machine}:\n\n{markdown_table(shown)}")
+        head, *rows = merged_rows("evidence", table)  # with the times of passes that were not timed
+        order = [cells[0] for cells in table]
+        shown = [head, *sorted((cells for cells in rows if cells[0] in order), key=lambda cells: order.index(cells[0]))]
+        write_section("evidence", f"{instances} instances; {machine_text()}:\n\n{markdown_table(shown)}")
     return 0
 
 
