@@ -79,10 +79,12 @@ class Compare(unittest.TestCase):
         self.assertEqual(compare.shortfalls([slow])[0], "batch: the geometric mean 40 is below 3,000")
 
     def test_takes_the_smallest_and_the_largest_instance(self):
-        cases = compare.smallest_and_largest("SysAdmin_MDP_ippc2011")
-        sizes = [c.instance_path.stat().st_size for c in compare.repository_cases("SysAdmin_MDP_ippc2011")]
-        self.assertEqual([c.instance_path.stat().st_size for c in cases], [min(sizes), max(sizes)])
-        self.assertEqual(len(compare.smallest_and_largest(PROBLEM)), 1)
+        cases = compare.repository_cases("SysAdmin_MDP_ippc2011")
+        sizes = sorted(c.instance_path.stat().st_size for c in cases)
+        for count, wanted in (1, sizes[:1]), (2, [sizes[0], sizes[-1]]), (3, [sizes[0], sizes[5], sizes[-1]]), (None, sizes):
+            spread = [c.instance_path.stat().st_size for c in compare.spread_by_size(cases, count)]
+            self.assertEqual(spread if count else sorted(spread), wanted)
+        self.assertEqual(len(compare.spread_by_size(compare.repository_cases(PROBLEM), 2)), 1)
 
 
 class CompareJax(unittest.TestCase):
