@@ -39,6 +39,8 @@ install_rest() {
 }
 install_rest &
 rest=$!
+# If the build fails, they still come to an end: an installation that is cut off has to be repaired by hand.
+trap wait EXIT
 time_of packages
 
 step "2/4 build with sanitizers"

@@ -4,8 +4,8 @@
 //     scratch.water])))
 //         =>   !forall[e in ROWS[s]](!(state.fish[S2[e]] && LINK[e, scratch.water] != 0))
 //
-// Domains write such probabilities as products over neighbours. Not each of them is seen from the
-// text: LINK has to be a table of zeros and ones in this instance.
+// Domains write such probabilities as products over neighbours. The text alone does not always show
+// them: LINK has to be a table of zeros and ones in this instance.
 #pragma once
 
 #include "ir/ir.hpp"

@@ -277,7 +277,7 @@ class Rewriting {
             return sparse_if_finite(id, *found, doubtful, outer);
         Scope scope = scope_for(*found, nest->variables, outer);
         if (!doubtful.empty() && !lacks_entries_in_each_row(scope)) return std::nullopt;
-        if (found->tuples.empty())
+        if (scope.relation.tuples.empty())
             return with_terms_left_out(builder_.constant(*neutral), doubtful, outer);
         // Objects that no table tells apart are left to loops inside.
         std::erase_if(nest->variables, [&](ir::VariableId each) { return found->has(each); });

@@ -71,6 +71,13 @@ TEST(MakeAggregationsSparse, KnowsThatNoObjectCounts) {
     EXPECT_EQ(sparse("forall_{?o : obj} [p(?o) | COST(?o) >= 0]"), "1.0");
 }
 
+// The entries of b3, which the loop around them leaves out.
+TEST(MakeAggregationsSparse, KnowsThatNoEntryIsReached) {
+    EXPECT_EQ(sparse("sum_{?o : obj} [if (RISK(?o) > 0) then v(?o) + (exists_{?u : obj} "
+                     "[COST(?o) > 0 ^ LINK(?o, ?u) ^ (p(?u) | COST(?u) > RISK(?o))]) else 0.0]"),
+              "state.v[1] + 0.0");
+}
+
 TEST(MakeAggregationsSparse, CountsEqualTerms) {
     EXPECT_EQ(sparse("sum_{?o : obj} v(?o) * (exists_{?u : obj} [LINK(?o, ?u) ^ p(?o) ^ q(?o)])"),
               "sum[o in obj](state.v[o] * real(LINK-rows[o] < LINK-rows[o + 1] && "
