@@ -7,6 +7,7 @@
 #include "passes/aggregations/decide_draws.hpp"
 #include "passes/aggregations/draw_over_objects.hpp"
 #include "passes/aggregations/factor_aggregations.hpp"
+#include "passes/aggregations/factor_quantifiers.hpp"
 #include "passes/aggregations/fuse_interm_fluents.hpp"
 #include "passes/aggregations/hoist_aggregations.hpp"
 #include "passes/aggregations/index_directly.hpp"
@@ -255,11 +256,17 @@ constexpr Pass in_order[] = {
      "a root that is only compared with a constant is not taken",
      {"fuse_interm_fluents", "search_intervals"},
      "roots and their comparisons stand together, and it looks for plain comparisons"},
+    {"factor_quantifiers",
+     Phase::Aggregations,
+     factor_quantifiers,
+     "an exists or forall leaves out the conditions that it does not change",
+     {"count_bits", "compare_roots"},
+     "the passes above need whole conditions, and make their final form"},
     {"share_across_definitions",
      Phase::Sharing,
      share_across_definitions,
      "expressions that several CPFs compute are computed once",
-     {"fuse_interm_fluents", "count_bits"},
+     {"count_bits", "factor_quantifiers"},
      "expressions have their final form, so that equal ones are equal"},
     {"separate_counts",
      Phase::Lanes,
