@@ -6,8 +6,8 @@
 //     for c in course, several at once, chosen by action.take, others state.passed
 //         next.passed[c] = select(action.take[c], sample bernoulli@0[c](P[n]), state.passed[c])
 //
-// One environment then computes the bools of the chosen objects alone, unless many are chosen;
-// packs of environments compute all. Nothing else changes. Whether few are chosen is taken from
+// One environment then computes the bools of the chosen objects alone, unless many are chosen, and so
+// does each environment of a pack. Nothing else changes. Whether few are chosen is taken from
 // max-nondef-actions and the preconditions (Buffer::most_true).
 #pragma once
 

@@ -1,12 +1,13 @@
 // Loops over objects of which an action chooses few; the bools of the others stay as they are.
 //
-// Packs of environments take one object after the other, since each environment has its own choice.
+// In packs each environment takes its own objects (own_objects.hpp), unless one has chosen many.
 // One environment computes the bools of the chosen objects alone, unless many are chosen, and keeps
 // all bools as bits until they are stored: processors are slow to load in one piece what has just
 // been stored in several.
 #pragma once
 
 #include <rddl/object_lanes/objects.hpp>
+#include <rddl/object_lanes/own_objects.hpp>
 #include <rddl/random/random.hpp>
 #include <rddl/values/bits.hpp>
 #include <rddl/values/context.hpp>
@@ -85,9 +86,19 @@ RDDL_INLINE void store_words(const std::uint64_t* words, Table& table) {
 // Calls body(context, object) for [0, count). An object whose bool in `choices`, a table of the
 // caller's action, is false gets its element of `kept` in `target`.
 template <Index count, int n, class R, class Choices, class Table, class Body>
-RDDL_INLINE void for_chosen_objects(Context<Pack<n, R>>& context, const Choices&, const Table&,
-                                    Table&, Body&& body) {
-    for_each_object<count>(context, body);
+RDDL_INLINE void for_chosen_objects(Context<Pack<n, R>>& context, const Choices& choices,
+                                    const Table& kept, Table& target, Body&& body) {
+    constexpr int most_chosen = static_cast<int>(count / 8);
+    constexpr std::size_t word_count = (count + 63) / 64;
+    [&]<std::size_t... word>(std::index_sequence<word...>) RDDL_INLINE_LAMBDA {
+        const std::array<Lanes<std::int64_t, n>, word_count> chosen{
+            action_bits<Index{64 * word}>(choices)...};
+        if (!detail::are_few(chosen, most_chosen)) return for_each_object<count>(context, body);
+        (detail::for_own_objects<Index{64 * word}>(context, chosen[word], choices, kept, target,
+                                                   body),
+         ...);
+    }
+    (std::make_index_sequence<word_count>());
 }
 template <Index count, class R, class Choices, class Table, class Body>
 RDDL_INLINE void for_chosen_objects(Context<ScalarOf<R>>& context, const Choices& choices,

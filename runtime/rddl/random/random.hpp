@@ -118,16 +118,20 @@ RDDL_INLINE void for_each_schedule(const Context<Pack<n, R>>& context, Use&& use
     }
 }
 
+template <int n, class R>
+RDDL_INLINE void make_schedule(Context<Pack<n, R>>& context) {
+    if (context.is_scheduled) return;
+    if constexpr (Context<Pack<n, R>>::keeps_schedule)
+        context.schedule.begin(context.step, {context.key_low, context.key_high});
+    context.draws_medians = is_median_key(context.key_low, context.key_high);
+    context.is_scheduled = true;
+}
+
 // Numbers, not a place: what compilers pass through memory is read slowly.
 template <std::uint32_t count, int n, class R>
 [[gnu::noinline]] void refill(Context<Pack<n, R>>& context, std::uint32_t series,
                               std::uint32_t index) {
-    if (!context.is_scheduled) {
-        if constexpr (Context<Pack<n, R>>::keeps_schedule)
-            context.schedule.begin(context.step, {context.key_low, context.key_high});
-        context.draws_medians = is_median_key(context.key_low, context.key_high);
-        context.is_scheduled = true;
-    }
+    make_schedule(context);
     auto& recent = context.recent[series % recent_series];
     recent.series = series;
     recent.first = index / count * count;

@@ -70,16 +70,85 @@ TEST(ChosenObjects, HaveAnyByteThatIsTrue) {
     for (std::size_t x = 0; x < target.size(); ++x) EXPECT_EQ(target[x], x == 33);
 }
 
-TEST(ChosenObjects, AreAllInPacks) {
-    using L = Pack<8>;
-    std::array<Mask<8>, 20> choices, kept, target;
-    choices.fill(Mask<8>::of_bits(0x0F));
-    kept.fill(Mask<8>::of_bits(0x55));
-    Context<L> context = Context<L>::of(L::Word{7}, L::Word{9}, L::Word{1}, true);
-    for_chosen_objects<20>(context, choices, kept, target, [&](auto&, auto x) {
-        elements(target, x) = select(at(choices, x), true, at(kept, x));
+// ----------------------------------------------------------------------------------- packs
+
+constexpr std::size_t courses = 70;  // more than a word has bits
+
+template <class T, class Make>
+constexpr auto table_of(Make make) {
+    std::array<T, courses> table{};
+    for (std::size_t x = 0; x < courses; ++x) table[x] = static_cast<T>(make(x));
+    return table;
+}
+constexpr auto kinds = table_of<std::int64_t>([](std::size_t x) { return x % 2; });
+constexpr auto places = table_of<std::uint8_t>([](std::size_t x) { return x * 3 % courses; });
+template <class R>
+constexpr auto chance = table_of<R>([](std::size_t x) { return static_cast<R>(x) / 8; });
+template <class R>
+constexpr std::array<std::array<R, 3>, 2> by_kind{{{0.125, 0.25, 0.75}, {0.625, 0.5, 0.375}}};
+template <class R>
+constexpr auto by_count = table_of<std::array<R, 3>>([](std::size_t x) {
+    return std::array<R, 3>{0.25, 0.5, static_cast<R>(x) / 8};
+});
+
+// Each environment chooses objects of its own, `most` at most; the last one has no stream but
+// medians.
+template <int n, class R>
+void expect_the_own(int most) {
+    using L = Pack<n, R>;
+    struct {
+        std::array<Mask<n>, courses> bools, behind;
+    } result;
+    std::array<Mask<n>, courses> choices, kept, expected;
+    result.behind.fill(true);
+    choices.fill(false);
+    typename L::Word keys{};
+    for (int lane = 0; lane < n; ++lane) {
+        keys.set(lane, lane + 1 == n ? median_key.low : 10 + static_cast<std::uint64_t>(lane));
+        for (int i = 0; i < lane % (most + 1); ++i)
+            choices[static_cast<std::size_t>(lane * 11 + i * 33) % courses].set(lane, true);
+    }
+    for (std::size_t x = 0; x < courses; ++x)
+        kept[x] = Mask<n>::of_bits(0x9E3779B97F4A7C15 * (x + 1) >> x % 17);
+    const typename L::Word high{std::uint64_t{median_key.high}};
+    Context<L> context = Context<L>::of(keys, high, typename L::Word{std::uint64_t{3}}, true);
+    Context<L> same_context = context;
+    const auto count = select(kept[5], std::int64_t{1}, std::int64_t{2});
+    const auto body = [&](auto& target) {
+        return [&](auto& several, auto x) {
+            elements(target, x) = branch(
+                several, at(choices, x),
+                [&] {
+                    const auto p = select(at_places<places>(kept, x), at(chance<R>, x),
+                                          at_row<by_kind<R>, kinds>(x, count));
+                    const auto q = select(at(kept, x), at_row<by_count<R>>(x, count), p);
+                    const auto own = at_own(by_kind<R>, x, at(kinds, x), std::int64_t{1});
+                    const auto r = select(at_own(kept, x, at(kinds, x)), own, q);
+                    return sample::bernoulli(several, {3, x, 1}, r) ||
+                           sample::valid_bernoulli(several, {4, x}, R(0.25));
+                },
+                [&] { return at(kept, x); });
+        };
+    };
+    for_each_object<courses>(context, body(expected));
+    for_chosen_objects<courses>(same_context, choices, kept, result.bools, body(result.bools));
+    for (std::size_t x = 0; x < courses; ++x) {
+        EXPECT_EQ(result.bools[x].bits, expected[x].bits) << x;
+        EXPECT_TRUE(all(result.behind[x]));
+    }
+    EXPECT_TRUE(any(context.faulty));
+    EXPECT_EQ(same_context.faulty.bits, context.faulty.bits);
+    for_each_lane(context.faulty, [&](int lane) {
+        EXPECT_EQ(same_context.fault_of(lane).place, context.fault_of(lane).place);
+        EXPECT_EQ(same_context.fault_of(lane).value, context.fault_of(lane).value);
     });
-    for (const Mask<8>& each : target) EXPECT_EQ(each.bits, 0x5Fu);
+}
+
+TEST(ChosenObjects, AreEachEnvironmentsOwnInPacks) {
+    expect_the_own<16, double>(3);
+    expect_the_own<64, double>(2);
+    expect_the_own<16, float>(3);
+    expect_the_own<16, double>(20);  // too many: all objects are computed
 }
 
 }  // namespace
