@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace rddlc::passes {
@@ -37,12 +38,12 @@ std::optional<ir::NodeId> factored(ir::Builder& builder, ir::NodeId id) {
     const Operator op = reduce.op == Reduction::Exists ? Operator::And : Operator::Or;
     Parts parts;
     collect_parts(builder.program(), op, reduce.body, parts);
-    const auto outside = std::ranges::stable_partition(parts, [&](ir::NodeId part) {
+    const auto outside = std::stable_partition(parts.begin(), parts.end(), [&](ir::NodeId part) {
         return !std::ranges::binary_search(builder.properties(part).free_variables,
                                            reduce.variable);
     });
-    Parts rest(outside.begin(), outside.end());
-    parts.erase(outside.begin(), outside.end());
+    const Parts rest(outside, parts.end());
+    parts.erase(outside, parts.end());
     if (rest.empty() || parts.empty()) return std::nullopt;
     reduce.body = joined(builder, op, rest);
     if (builder.properties(reduce.body).cost < least_cost) return std::nullopt;
