@@ -28,6 +28,10 @@ import pyRDDLGym_jax.core.planner  # noqa: E402
 import pyRDDLGym_jax.examples  # noqa: E402
 from pyRDDLGym_jax.core.planner import JaxBackpropPlanner, JaxOfflineController, load_config  # noqa: E402
 
+sys.path.append(str(Path(__file__).resolve().parents[2] / "tests/conformance"))
+
+from problems import repository_cases  # noqa: E402
+
 # The optimizer asks this clock whether its seconds have passed, and how far its schedules are.
 pyRDDLGym_jax.core.planner.time = SimpleNamespace(time=time.process_time)
 
@@ -57,7 +61,9 @@ def count_illegal_steps(env):
 
 
 def evaluated(configuration, arguments):
-    env = pyRDDLGym.make(arguments.problem, arguments.instance, vectorized=True)
+    # By their files: rddlrepository does not know all of its problems by name.
+    case = next(case for case in repository_cases(arguments.problem) if case.instance == arguments.instance)
+    env = pyRDDLGym.make(str(case.domain_path), str(case.instance_path), vectorized=True)
     steps = count_illegal_steps(env)
     env.discount = 1  # of the evaluation; the planner has that of the instance
     begin = time.process_time()
