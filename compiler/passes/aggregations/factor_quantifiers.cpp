@@ -1,8 +1,8 @@
 #include "passes/aggregations/factor_quantifiers.hpp"
 
+#include "ir/analysis.hpp"
 #include "ir/rewrite.hpp"
 
-#include <algorithm>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -14,21 +14,6 @@ namespace {
 // tables in fewer.
 constexpr double least_cost = 8;
 
-using Parts = std::vector<ir::NodeId>;
-
-// The parts of a conjunction, or of a disjunction.
-void collect_parts(const ir::Program& program, Operator op, ir::NodeId id, Parts& parts) {
-    const auto* apply = std::get_if<ir::Apply>(&program[id].form);
-    if (!apply || apply->op != op) return parts.push_back(id);
-    for (const ir::NodeId operand : apply->operands) collect_parts(program, op, operand, parts);
-}
-
-ir::NodeId joined(ir::Builder& builder, Operator op, const Parts& parts) {
-    ir::NodeId result = parts.front();
-    for (std::size_t k = 1; k < parts.size(); ++k) result = builder.apply(op, {result, parts[k]});
-    return result;
-}
-
 std::optional<ir::NodeId> factored(ir::Builder& builder, ir::NodeId id) {
     const auto* found = std::get_if<ir::Reduce>(&builder.program()[id].form);
     if (!found || (found->op != Reduction::Exists && found->op != Reduction::ForAll) ||
@@ -36,19 +21,16 @@ std::optional<ir::NodeId> factored(ir::Builder& builder, ir::NodeId id) {
         return std::nullopt;
     ir::Reduce reduce = *found;
     const Operator op = reduce.op == Reduction::Exists ? Operator::And : Operator::Or;
-    Parts parts;
-    collect_parts(builder.program(), op, reduce.body, parts);
-    const auto outside = std::stable_partition(parts.begin(), parts.end(), [&](ir::NodeId part) {
-        return !std::ranges::binary_search(builder.properties(part).free_variables,
-                                           reduce.variable);
-    });
-    const Parts rest(outside, parts.end());
-    parts.erase(outside, parts.end());
-    if (rest.empty() || parts.empty()) return std::nullopt;
-    reduce.body = joined(builder, op, rest);
+    std::vector<ir::NodeId> inside, outside;
+    for (const ir::NodeId part : ir::parts_of(builder.program(), reduce.body, op)) {
+        const bool depends = ir::depends_on_any(builder.properties(part), {&reduce.variable, 1});
+        (depends ? inside : outside).push_back(part);
+    }
+    if (inside.empty() || outside.empty()) return std::nullopt;
+    reduce.body = ir::joined(builder, op, inside);
     if (builder.properties(reduce.body).cost < least_cost) return std::nullopt;
-    parts.push_back(builder.rebuild({ir::Scalar::Bool, reduce}));
-    return joined(builder, op, parts);
+    outside.push_back(builder.rebuild({ir::Scalar::Bool, reduce}));
+    return ir::joined(builder, op, outside);
 }
 
 }  // namespace
