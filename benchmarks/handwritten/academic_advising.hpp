@@ -6,12 +6,11 @@
 
 namespace handwritten {
 
-struct AcademicAdvising : RunsToTheHorizon {
-    static constexpr int width = 8;
-    static constexpr std::uint64_t horizon = 40;
+// Which of so many courses are passed, and which were taken: a bit each.
+template <std::size_t course_count>
+struct Courses : RunsToTheHorizon {
     static constexpr bool stochastic = true;
-    static constexpr std::size_t courses = std::size(academic_advising::prerequisites);
-    static constexpr std::uint64_t program = academic_advising::program[0];
+    static constexpr std::size_t courses = course_count;
 
     template <class L>
     struct State {
@@ -33,6 +32,12 @@ struct AcademicAdvising : RunsToTheHorizon {
     static void load(Actions<L>& actions, const std::byte* records) {
         load_words(actions.take, records, courses, bits_of_bytes<courses>);
     }
+};
+
+struct AcademicAdvising : Courses<std::size(academic_advising::prerequisites)> {
+    static constexpr int width = 8;
+    static constexpr std::uint64_t horizon = 40;
+    static constexpr std::uint64_t program = academic_advising::program[0];
 
     // The probability of passing, by the number of courses among those required that are passed.
     static constexpr std::size_t most = 32;

@@ -1,38 +1,16 @@
 // AcademicAdvising_ippc2018 10: 62 courses, two bits each, of which few are taken in a semester.
 #pragma once
 
+#include "academic_advising.hpp"
 #include "bools.hpp"
 #include "tables.hpp"
 
 namespace handwritten {
 
-struct AcademicAdvising2018 : RunsToTheHorizon {
+struct AcademicAdvising2018 : Courses<std::size(academic_advising_2018::prerequisites)> {
     static constexpr int width = 16;
     static constexpr std::uint64_t horizon = 30;
-    static constexpr bool stochastic = true;
-    static constexpr std::size_t courses = std::size(academic_advising_2018::prerequisites);
     static constexpr std::uint64_t program = academic_advising_2018::program[0];
-
-    template <class L>
-    struct State {
-        typename L::Word passed, taken;
-    };
-    template <class L>
-    struct Actions {
-        typename L::Word take;
-    };
-
-    static void start(State<rddl::Scalar>& state) { state = {0, 0}; }
-    template <class L>
-    static void start(State<L>& state, typename L::Bool where) {
-        state = {select(where, std::uint64_t{0}, state.passed),
-                 select(where, std::uint64_t{0}, state.taken)};
-    }
-
-    template <class L>
-    static void load(Actions<L>& actions, const std::byte* records) {
-        load_words(actions.take, records, courses, bits_of_bytes<courses>);
-    }
 
     // The threshold of passing, by the course and the number of those required that are passed.
     static constexpr std::size_t most = 16;
