@@ -195,6 +195,8 @@ def parse_arguments() -> argparse.Namespace:
     )
     options = parser.parse_args()
     options.engine = tuple(options.engine or ENGINES)
+    if options.instances_each is not None and options.instances_each < 1:
+        parser.error("--instances-each is at least 1")
     if options.write and (options.without or options.fast_math or options.without_each):
         parser.error("--write tells of all optimisations together")
     if not options.rddl.exists():

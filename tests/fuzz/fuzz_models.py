@@ -229,7 +229,9 @@ def parse_arguments() -> argparse.Namespace:
     options.passes, options.engines = options.bin / "fuzz_passes", options.bin / "fuzz_engines"
     for program in (options.rddl, options.passes):
         if shutil.which(program) is None:
-            parser.error(f"{program} is not there: build it, or give its place")
+            parser.error(f"{program} is not there: build it, or give its place by --bin")
+    if options.mode in ("compiled", "sample") and shutil.which(options.engines) is None:
+        parser.error(f"{options.engines} is not there: build it with -DRDDLC_ALL_TESTS=ON")
     if options.first is None:
         options.first = random.SystemRandom().randrange(10**9) * 1000 if options.mode == "sample" else 0
     return options
