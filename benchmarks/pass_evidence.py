@@ -163,12 +163,13 @@ def main() -> int:
     print_row(TITLES)
     table = [TITLES]
     for name, fired in of_pass.items():
-        worths = []
-        for firing in sample(fired, options.time) if name in optional else []:
-            key = (name, firing.problem, firing.instance)
+        timed = sample(fired, options.time) if name in optional else []
+        keys = [(name, firing.problem, firing.instance) for firing in timed]
+        for key, firing in zip(keys, timed):
             if key not in results.entries and (not options.only or name in options.only):
                 results.add(measure(firing, options))
-            worths += [results.entries[key]] if key in results.entries else []
+        # A mean of a part of the sample would say something else than the row of before.
+        worths = [results.entries[key] for key in keys] if all(key in results.entries for key in keys) else []
         table.append(row(name, fired, worths))
         print_row(table[-1])
     if options.write:
