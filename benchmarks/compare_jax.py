@@ -5,6 +5,7 @@
     .venv/bin/python benchmarks/compare_jax.py Pendulum_gym    some problems
     .venv/bin/python benchmarks/compare_jax.py --require       and fail below the limits
     .venv/bin/python benchmarks/compare_jax.py --write         and docs/benchmarks.md
+    .venv/bin/python benchmarks/compare_jax.py --write Epidemic    and only its row there
     .venv/bin/python benchmarks/compare_jax.py --threads 2     with so many instead of one
 
 Measures the instance of median size of each problem of rddlrepository; those that pyRDDLGym-jax does not run are
@@ -176,6 +177,23 @@ def shortfalls(comparisons: list[Comparison]) -> list[str]:
     return lines + [f"{c.label}: the first step is not sooner" for c in comparisons if not c.is_sooner]
 
 
+def comparison_of(row: str, jax_version: str) -> Comparison:
+    """The figures of a row that `row_of` has written."""
+    label, *cells = (cell.strip() for cell in row.strip("| ").split("|"))
+    numbers = [None if cell == "-" else float(cell.replace(",", "").removesuffix(" s")) for cell in cells]
+    jax, doubles, _, floats, _, jax_import, jax_first_step, our_first_step = numbers
+    return Comparison(label, 1, jax_version, jax, doubles, floats, our_first_step, jax_first_step, jax_import)
+
+
+def with_kept_rows(measured: list[Comparison], others: list[NotRun]) -> list[Comparison]:
+    """The document's rows of other instances, and the new ones, by name."""
+    section = (ROOT / "docs/results/benchmarks.md").read_text().split("<!-- begin of jax by problem -->")[1]
+    rows = section.split("\n\n")[1].splitlines()[2:]
+    new = {entry.label for entry in [*measured, *others]}
+    kept = [comparison_of(row, measured[0].jax_version) for row in rows]
+    return sorted([*measured, *(c for c in kept if c.label not in new)], key=lambda c: c.label)
+
+
 def write_document(comparisons: list[Comparison], not_run: list[NotRun]) -> None:
     about = f"{machine_text()}; pyRDDLGym-jax {comparisons[0].jax_version}; {len(comparisons)} instances"
     write_section("jax", f"{about}:\n\n{markdown_table(summary_rows(comparisons))}")
@@ -197,7 +215,7 @@ def parse_arguments() -> argparse.Namespace:
     parser.add_argument("--results", type=Path, default=default, help="file that keeps the figures")
     parser.add_argument("--fresh", action="store_true", help="measure again what the file has")
     parser.add_argument("--require", action="store_true", help="fail below the limits")
-    parser.add_argument("--write", action="store_true", help="write docs/benchmarks.md")
+    parser.add_argument("--write", action="store_true", help="write docs/benchmarks.md; of named problems, their rows")
     options = parser.parse_args()
     if options.write and options.threads != 1:
         parser.error("--write is for one thread")
@@ -238,7 +256,9 @@ def main() -> int:
     short = shortfalls(comparisons)
     print(*short, sep="\n")
     if options.write:
-        write_document(comparisons, [entry for entry in entries if isinstance(entry, NotRun)])
+        not_run = [entry for entry in entries if isinstance(entry, NotRun)]
+        shown = with_kept_rows(comparisons, not_run) if options.problems else comparisons
+        write_document(shown, not_run)
     return 1 if failures or (options.require and short) else 0
 
 
