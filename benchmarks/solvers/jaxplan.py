@@ -60,9 +60,16 @@ def count_illegal_steps(env):
     return counted
 
 
+def case_of(problem, instance):
+    """By its files: rddlrepository does not know all of its problems by name."""
+    cases = {case.instance: case for case in repository_cases(problem)}
+    if instance not in cases:
+        sys.exit(f"jaxplan.py: error: {problem} has no instance {instance}; it has {', '.join(cases) or 'none'}")
+    return cases[instance]
+
+
 def evaluated(configuration, arguments):
-    # By their files: rddlrepository does not know all of its problems by name.
-    case = next(case for case in repository_cases(arguments.problem) if case.instance == arguments.instance)
+    case = case_of(arguments.problem, arguments.instance)
     env = pyRDDLGym.make(str(case.domain_path), str(case.instance_path), vectorized=True)
     steps = count_illegal_steps(env)
     env.discount = 1  # of the evaluation; the planner has that of the instance

@@ -72,8 +72,8 @@ Cem::Cem(const PlannerContext& context, const CemOptions& options)
     if (options.tail == Tail::Value) tail_.emplace(*context.base, futures_.count());
     default_numbers_.resize(static_cast<std::size_t>(space_.real_count()));
     default_indices_.resize(static_cast<std::size_t>(space_.index_count()));
-    solvers::read_action(space_, space_.defaults.data(), default_numbers_.data(),
-                         default_indices_.data());
+    read_plan_action(space_, space_.defaults.data(), default_numbers_.data(),
+                     default_indices_.data());
 
     near_numbers_ = default_numbers_;
     near_indices_ = default_indices_;
@@ -171,9 +171,8 @@ void Cem::record_policy(const DecisionPoint& point, BudgetMeter& meter) {
     for (std::size_t t = 0; t < rows && recording_->any_running(); ++t) {
         recorder_->act(*recording_, wanted, actions_.data(), point.stops);
         records_.read(actions_.data(), row_.data());
-        solvers::read_action(space_, row_.data(),
-                             plan_.numbers.data() + t * default_numbers_.size(),
-                             plan_.indices.data() + t * default_indices_.size());
+        read_plan_action(space_, row_.data(), plan_.numbers.data() + t * default_numbers_.size(),
+                         plan_.indices.data() + t * default_indices_.size());
         if (t + 1 == rows) return;  // no action follows, which would need the next state
         recording_->step(actions_.data());
         meter.add_steps(1);

@@ -77,7 +77,7 @@ const std::byte* NearSearch::run(const DecisionPoint& point, BudgetMeter& meter)
 
 void Cem::look_near(const DecisionPoint& point, BudgetMeter& meter) {
     records_.read(near_->run(point, meter), row_.data());
-    solvers::read_action(space_, row_.data(), near_numbers_.data(), near_indices_.data());
+    read_plan_action(space_, row_.data(), near_numbers_.data(), near_indices_.data());
 }
 
 // Begins with the best action for the next steps, and goes on as the best plan so far.

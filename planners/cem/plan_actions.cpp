@@ -1,6 +1,7 @@
 #include "planners/cem/plan_actions.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 
 namespace rddlc::planners {
@@ -24,7 +25,26 @@ RealScale scale_of(const RealHead& head, const solvers::ActionSpace& space,
             records.default_value(head.column)};
 }
 
+// The inverse of the loops' bent().
+double straightened(double value) {
+    constexpr double from = half_bend;
+    return value < from ? 2 * std::sqrt(from * std::max(value, 0.0)) - from : value;
+}
+
 }  // namespace
+
+void read_plan_action(const solvers::ActionSpace& space, const float* row, float* numbers,
+                      std::int32_t* indices) {
+    solvers::read_action(space, row, numbers, indices);
+    for (std::size_t r = 0; r < space.reals.size(); ++r) {
+        const RealHead& head = space.reals[r];
+        const auto value = static_cast<double>(row[head.column]);
+        if (head.range == RealHead::Range::AboveLower)
+            numbers[r] = static_cast<float>(straightened((value - head.lower) / head.scale));
+        else if (head.range == RealHead::Range::BelowUpper)
+            numbers[r] = static_cast<float>(straightened((head.upper - value) / head.scale));
+    }
+}
 
 PlanActions::PlanActions(const solvers::ActionSpace& space, const solvers::ActionRecords& records,
                          std::size_t most_plans)

@@ -12,6 +12,10 @@
 
 namespace rddlc::planners {
 
+// The numbers and indices that PlanActions writes as this row, as far as there are any.
+void read_plan_action(const solvers::ActionSpace& space, const float* row, float* numbers,
+                      std::int32_t* indices);
+
 class PlanActions {
   public:
     // It writes at most so many plans at once. `space` and `records` must outlive it.

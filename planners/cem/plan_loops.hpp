@@ -21,6 +21,10 @@ struct RankNoise {
 };
 inline constexpr std::int32_t rank_count = 1 << 24;
 
+// Where plans' numbers lie between -half_bend and half_bend, values with one bound are bent: they
+// go on from the bound as a parabola. 4 log 2: so that 0 has the value that learners give it.
+inline constexpr float half_bend = 2.7725887f;
+
 // A real of an action: its scale, and its default as a float and as it is.
 struct RealScale {
     solvers::RealHead::Range range;  // not Squashed
@@ -50,8 +54,8 @@ struct PlanLoops {
                     std::size_t plans, std::int32_t* stretched);
     void (*keep_habits)(const std::int32_t* habits, const std::int32_t* ranks, std::int32_t usual,
                         std::size_t plans, std::int32_t* chosen);
-    // Values as write_action and ActionRecords have them: of a float's precision, and what is the
-    // default there is the default itself.
+    // Values as write_action and ActionRecords have them, but bent in place of softplus: of a
+    // float's precision, and what is the default there is the default itself.
     void (*real_values)(const RealScale& real, const float* numbers, std::size_t plans,
                         double* values);
 };

@@ -100,52 +100,78 @@ inline void keep_habits(const std::int32_t* habits, const std::int32_t* ranks, s
     for (std::size_t p = 0; p < plans; ++p) chosen[p] = ranks[p] < habits[p] ? usual : chosen[p];
 }
 
-// log(1 + y) for y in [0, 1], within 5e-7 of its value.
-inline float log_of_one_and(float y) {
-    const float square = y * y;
-    const float low = (1.0f - 0.49998793f * y) + (0.33292857f - 0.24577269f * y) * square;
-    const float high = (0.17927648f - 0.10974114f * y) + (0.045214139f - 0.00877026f * y) * square;
-    return (low + high * (square * square)) * y;
+// In place of softplus(x): 0, x, and between them the parabola that meets both with their slopes.
+// It differs by 0.076 at most, and unlike softplus it reaches the bound.
+inline float bent(float x) {
+    constexpr float from = half_bend;
+    const float within = clamped(x + from, 0.0f, 2 * from);
+    return within * within * (1 / (4 * from)) + ((x > from ? x : from) - from);
 }
 
-// As real_value has it, without calls, so that loops of it are vectorised.
-inline double quick_softplus(float x) {
-    constexpr float per_octave = 1.44269504f;
-    const float size = x > 0 ? x : -x;
-    return static_cast<double>((x > 0 ? x : 0) + log_of_one_and(power_of_two(-size * per_octave)));
+inline float rounded_whole(float x) {
+    return __builtin_nearbyintf(x);
+}
+inline double rounded_whole(double x) {
+    return __builtin_nearbyint(x);
 }
 
-inline void real_values(const RealScale& real, const float* numbers, std::size_t plans,
-                        double* values) {
-    const double lower = real.lower, upper = real.upper, scale = real.scale, centre = real.centre;
-    const double half_width = 0.5 * (upper - lower);
-    const float short_default = real.short_default;
-    const double exact_default = real.exact_default;
-    const double least = real.least, most = real.most;
-    const auto finished = [=](double value) {
-        const auto rounded = static_cast<float>(clamped(value, least, most));
-        // The float next to a bound may lie beyond it.
-        const double within = clamped(static_cast<double>(rounded), lower, upper);
-        return rounded == short_default ? exact_default : within;
-    };
+// Values before they are finished, in the precision of Number.
+template <class Number, class Finish>
+inline void finish_values(const RealScale& real, const float* numbers, std::size_t plans,
+                          double* values, Finish finished) {
+    const auto lower = static_cast<Number>(real.lower), upper = static_cast<Number>(real.upper);
+    const auto scale = static_cast<Number>(real.scale), centre = static_cast<Number>(real.centre);
+    const auto half_width = static_cast<Number>(0.5 * (real.upper - real.lower));
     const auto make_values = [=](auto value_of) {
         if (real.rounds)
             for (std::size_t p = 0; p < plans; ++p)
-                values[p] = finished(__builtin_nearbyint(value_of(numbers[p])));
+                values[p] = finished(rounded_whole(value_of(numbers[p])));
         else
             for (std::size_t p = 0; p < plans; ++p) values[p] = finished(value_of(numbers[p]));
     };
     using Range = solvers::RealHead::Range;
     if (real.range == Range::Bounded)
         make_values([=](float u) {
-            return lower + (static_cast<double>(clamped(u, -1.0f, 1.0f)) + 1) * half_width;
+            return lower + (static_cast<Number>(clamped(u, -1.0f, 1.0f)) + 1) * half_width;
         });
     else if (real.range == Range::AboveLower)
-        make_values([=](float u) { return lower + scale * quick_softplus(u); });
+        make_values([=](float u) { return lower + scale * static_cast<Number>(bent(u)); });
     else if (real.range == Range::BelowUpper)
-        make_values([=](float u) { return upper - scale * quick_softplus(u); });
+        make_values([=](float u) { return upper - scale * static_cast<Number>(bent(u)); });
     else
-        make_values([=](float u) { return centre + scale * static_cast<double>(u); });
+        make_values([=](float u) { return centre + scale * static_cast<Number>(u); });
+}
+
+// Whether the bounds and the default are floats, which arithmetic of floats reaches.
+inline bool is_short(const RealScale& real) {
+    const auto is_float = [](double x) {
+        return static_cast<double>(static_cast<float>(x)) == x;
+    };
+    if (!is_float(real.lower) || !is_float(real.upper) || !is_float(real.exact_default))
+        return false;
+    if (real.range != solvers::RealHead::Range::Bounded) return true;
+    const auto half_width = static_cast<float>(0.5 * (real.upper - real.lower));
+    return static_cast<float>(real.lower) + 2 * half_width == static_cast<float>(real.upper);
+}
+
+inline void real_values(const RealScale& real, const float* numbers, std::size_t plans,
+                        double* values) {
+    if (is_short(real)) {
+        const auto least = static_cast<float>(real.least), most = static_cast<float>(real.most);
+        finish_values<float>(real, numbers, plans, values, [=](float value) {
+            return static_cast<double>(clamped(value, least, most));
+        });
+        return;
+    }
+    const double lower = real.lower, upper = real.upper, least = real.least, most = real.most;
+    const float short_default = real.short_default;
+    const double exact_default = real.exact_default;
+    finish_values<double>(real, numbers, plans, values, [=](double value) {
+        const auto rounded = static_cast<float>(clamped(value, least, most));
+        // The float next to a bound may lie beyond it.
+        const double within = clamped(static_cast<double>(rounded), lower, upper);
+        return rounded == short_default ? exact_default : within;
+    });
 }
 
 inline constexpr PlanLoops loops{next_numbers,  draw_widths, next_ranks,  scale_numbers,
