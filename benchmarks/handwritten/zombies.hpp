@@ -28,7 +28,6 @@ struct Zombies : RunsToTheHorizon {
     template <class L>
     struct State {
         Real<L> x[registers<L>], y[registers<L>], distance[registers<L>];
-        // By person, in memory: the numbers of a step are drawn in another order.
         Real<L> speed_x[registers<L>], speed_y[registers<L>];
         Bool<L> is_stunned[registers<L>], is_zombie[registers<L>];
     };
