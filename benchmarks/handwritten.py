@@ -80,6 +80,7 @@ REFERENCES = {
     "Pizza_rddlsim": Reference(OBJECTS, "0", "pizza", "Pizza"),
     "Intruders_Discrete": Reference(OBJECTS, "0", "intruders", "Intruders"),
     "SupplyChain_or": Reference(OBJECTS, "0", "supply_chain", "SupplyChain"),
+    "Zombies_arcade": Reference(OBJECTS, "2", "zombies", "Zombies"),
 }
 LEAST_RATIO = 0.9
 LEAST_MEAN, LEAST_OF_ALL = 0.8, 0.5  # by default, the aim for all

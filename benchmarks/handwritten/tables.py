@@ -333,6 +333,12 @@ def intruders_discrete() -> list[str]:
     ]
 
 
+def zombies() -> list[str]:
+    values = values_of("Zombies_arcade", "2")
+    assert values["X_MAX"] == 10 and values["Y_MAX"] == 1 and np.all(values["y_loc"] == 0.5)
+    return [array("x", values["x_loc"]), bit_sets("zombies", [values["zombie"]])]
+
+
 def tamarisk() -> list[str]:
     values = values_of("Tamarisk_MDP_ippc2014", "10")
     assert np.array_equal(values["SLOT-AT-REACH"], np.repeat(np.eye(8), 3, axis=0)), "three slots each"
@@ -410,6 +416,7 @@ TABLES = (
     recsim,
     pizza,
     intruders_discrete,
+    zombies,
     tamarisk,
     mars_rover,
     earth_observation,

@@ -22,6 +22,9 @@ constexpr double least_cost_of_few_objects = 60;
 // each other.
 constexpr double least_cost_of_few_draws = 20;
 constexpr std::int64_t fewest_objects = 2;
+// So do reals that would jump one after the other, since processors cannot foresee where. Ints that
+// jump do not pay.
+constexpr std::int64_t fewest_reals_that_jump = 4;
 
 class Marking {
   public:
@@ -106,11 +109,36 @@ class Marking {
     }
 
     bool are_expensive(const ir::Nest& nest, const ir::Store& store) const {
+        const ir::Scalar scalar = program_[store.target].scalar;
+        const std::int64_t objects = ir::combinations(program_, nest.variables);
+        if (scalar == ir::Scalar::Bool || objects < fewest_objects) return false;
         const bool draws = std::holds_alternative<ir::Interval>(program_[store.value].form);
-        return program_[store.target].scalar != ir::Scalar::Bool &&
-               ir::combinations(program_, nest.variables) >= fewest_objects &&
-               cost_of(store.value) >=
-                   (draws ? least_cost_of_few_draws : least_cost_of_few_objects);
+        const double least = draws ? least_cost_of_few_draws : least_cost_of_few_objects;
+        return cost_of(store.value) >= least ||
+               (scalar == ir::Scalar::Real && objects >= fewest_reals_that_jump &&
+                jumps(store.value) && !reads_new_values(store.value));
+    }
+    bool jumps(ir::NodeId id) const {
+        const ir::Node& node = program_[id];
+        const auto* select = std::get_if<ir::Select>(&node.form);
+        const auto of = [&](ir::NodeId value) -> const ir::Properties& {
+            return properties_[value.index];
+        };
+        if (select &&
+            ir::is_lazy(program_, *select, of(select->then_value), of(select->else_value)))
+            return true;
+        return std::ranges::any_of(ir::operands_of(node),
+                                   [&](ir::NodeId operand) { return jumps(operand); });
+    }
+    // Registers wait for elements that this step has just stored one by one.
+    bool reads_new_values(ir::NodeId id) const {
+        const ir::Node& node = program_[id];
+        if (const auto buffer = ir::buffer_read_by(node)) {
+            const ir::Storage storage = program_[*buffer].storage;
+            if (storage == ir::Storage::Scratch || storage == ir::Storage::Next) return true;
+        }
+        return std::ranges::any_of(ir::operands_of(node),
+                                   [&](ir::NodeId operand) { return reads_new_values(operand); });
     }
 
     const ir::Program& program_;

@@ -8,7 +8,7 @@
 // elements of their objects, or what is the same for all, without aggregations; they draw, or
 // compute bools, or reals that are not cheap. Fewer than 8 iterations do not fill the registers,
 // which pays only for reals and ints that take long, such as elementary functions and draws from
-// weights.
+// weights, and for four reals that would jump.
 #pragma once
 
 #include "ir/ir.hpp"

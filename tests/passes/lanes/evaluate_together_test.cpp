@@ -96,6 +96,29 @@ TEST(EvaluateTogether, TakesFewObjectsWhoseRealsTakeLong) {
     EXPECT_EQ(marked("v(?x) + sum_{?y : obj} [v(?y)]"), 0);
 }
 
+// Six pairs do, in place of six jumps, unless they wait for what this step has stored.
+TEST(EvaluateTogether, TakesFewRealsThatJump) {
+    const auto marked = [](const std::string& cpf) {
+        passes::Report report;
+        passes::evaluate_together(
+            grounded({.pvariables = "w(pair, obj) : { interm-fluent, real };\n"
+                                    "v(pair, obj) : { state-fluent, real, default = 0.0 };\n"
+                                    "k(pair, obj) : { state-fluent, int, default = 0 };",
+                      .cpfs = "w(?p, ?x) = v(?p, ?x);\nk'(?p, ?x) = if (k(?p, ?x) > 1) then 0 else "
+                              "k(?p, ?x) * k(?p, ?x) + k(?p, ?x) * 2;\nv'(?p, ?x) = " +
+                              cpf + ";"}),
+            report);
+        return report["loops over several objects at once"];
+    };
+    const auto jumping = [](const std::string& value) {
+        return "if (v(?p, ?x) > 1.0) then 0.0 else " + value + " * " + value + " + " + value +
+               " * v(?p, ?x)";
+    };
+    EXPECT_EQ(marked(jumping("v(?p, ?x)")), 1);
+    EXPECT_EQ(marked(jumping("w(?p, ?x)")), 0);
+    EXPECT_EQ(marked("if (v(?p, ?x) > 1.0) then 0.0 else v(?p, ?x) + 1.0"), 0);
+}
+
 TEST(EvaluateTogether, TakesFewObjectsThatDrawByThresholds) {
     const auto marked = [](const std::string& cpf) {
         passes::Report report;
