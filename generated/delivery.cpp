@@ -57,11 +57,11 @@ inline constexpr std::array<std::int64_t, parcel_count> DESTINATION_ = {2, 4, 0}
 // PRICE, domain.rddl:33
 inline constexpr std::array<double, parcel_count> PRICE_ = {20, 20, 35};
 
-// CHANGE, domain.rddl:36
-inline constexpr std::array<std::array<double, weather_count>, weather_count> CHANGE_ = {{
-    {0.8, 0.15, 0.05},
-    {0.3, 0.6, 0.1},
-    {0.2, 0.2, 0.6},
+// sky-thresholds, domain.rddl:57
+inline constexpr std::array<std::array<double, 2>, 3> sky_thresholds_ = {{
+    {0.8, 0.9500000000000001},
+    {0.3, 0.8999999999999999},
+    {0.2, 0.4},
 }};
 
 // --------------------------------------------------------------------------------- records
@@ -144,10 +144,8 @@ struct Simulator {
     // sky'  (domain.rddl:57)
     template <class L>
     static void set_sky(const State<L>& state, State<L>& next, rddl::Context<L>& context) {
-        next.sky = rddl::sample::discrete_over(
-            context, rddl::LonePlace{0, 0}, weather_count, [&](rddl::Index tomorrow) {
-                return rddl::at(CHANGE_, state.sky, tomorrow);
-            });
+        next.sky =
+            rddl::sample::interval<sky_thresholds_>(context, rddl::LonePlace{0, 0}, state.sky);
     }
 
     // called(?p)  (domain.rddl:73)
@@ -331,13 +329,17 @@ inline constexpr rddl_fluent fluents[] = {
      nullptr, nullptr, {source_file, 51, 9}},
 };
 
+inline constexpr std::array<double, 9> CHANGE_values_ = {
+    0.8, 0.15, 0.05, 0.3, 0.6, 0.1, 0.2, 0.2, 0.6
+};
+
 inline constexpr rddl::Constants constants[] = {
     rddl::constants(0, ROAD_),           // ROAD
     rddl::constants(1, STEEP_),          // STEEP
     rddl::constants(2, ORIGIN_),         // ORIGIN
     rddl::constants(3, DESTINATION_),    // DESTINATION
     rddl::constants(4, PRICE_),          // PRICE
-    rddl::constants(5, CHANGE_),         // CHANGE
+    rddl::constants(5, CHANGE_values_),  // CHANGE
     rddl::constant<double>(6, 1.0),      // DRIVE-COST
     rddl::constant<std::int64_t>(7, 2),  // CAPACITY
 };

@@ -167,12 +167,26 @@ class ThresholdTabulation {
     bool find_keys_below(ir::NodeId id, Keys& keys) const {
         const ir::Node& node = program_[id];
         const auto* apply = std::get_if<ir::Apply>(&node.form);
-        const bool is_arithmetic = (apply && !apply->place) ||
-                                   std::holds_alternative<ir::Select>(node.form) ||
-                                   std::holds_alternative<ir::Convert>(node.form);
-        return is_arithmetic && std::ranges::all_of(ir::operands_of(node), [&](ir::NodeId operand) {
-                   return find_keys(operand, keys);
-               });
+        const auto* load = std::get_if<ir::Load>(&node.form);
+        const bool is_decided_by_operands = (apply && !apply->place) ||
+                                            std::holds_alternative<ir::Select>(node.form) ||
+                                            std::holds_alternative<ir::Convert>(node.form) ||
+                                            (load && is_within_constant_table(*load));
+        return is_decided_by_operands &&
+               std::ranges::all_of(ir::operands_of(node),
+                                   [&](ir::NodeId operand) { return find_keys(operand, keys); });
+    }
+    // For all values of the keys, of which not all combinations need exist.
+    bool is_within_constant_table(const ir::Load& load) const {
+        const ir::Buffer& table = program_[load.buffer];
+        if (table.storage != ir::Storage::Constant) return false;
+        for (std::size_t axis = 0; axis < load.indices.size(); ++axis) {
+            const auto& range = builder_.properties(load.indices[axis]).range;
+            if (!range || range->lower < 0 ||
+                range->upper >= static_cast<double>(table.shape[axis]))
+                return false;
+        }
+        return true;
     }
     static bool add(const Key& key, Keys& keys) {
         const bool is_new = std::ranges::find(keys.ints, key.id, &Key::id) == keys.ints.end();

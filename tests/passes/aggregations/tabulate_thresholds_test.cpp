@@ -81,6 +81,18 @@ TEST(TabulateThresholds, ChoosesByAnIntWhereBoolsExcludeEachOther) {
     EXPECT_EQ(made.table(), (std::vector<ir::Value>{0.5, 0.5, 0.0, 0.5, 0.0, 0.0}));
 }
 
+TEST(TabulateThresholds, TakesElementsOfTables) {
+    const Tabulated made(
+        grounded({.pvariables = "P(color, color) : { non-fluent, real, default = 0.25 };\n"
+                                "c : { state-fluent, color, default = @red };",
+                  .cpfs = "c' = Discrete(color, @red : P(c, @red), @green : P(c, @green), "
+                          "@blue : P(c, @blue));",
+                  .non_fluents = "P(@red, @red) = 0.5;\nP(@green, @green) = 0.5;\n"
+                                 "P(@blue, @blue) = 0.5;"}));
+    EXPECT_EQ(made.cpf_of("c"), "next.c = sample interval@0[0](c-thresholds[state.c])");
+    EXPECT_EQ(made.table(), (std::vector<ir::Value>{0.5, 0.75, 0.25, 0.75, 0.25, 0.5}));
+}
+
 TEST(TabulateThresholds, TakesWeightsOfObjects) {
     const Tabulated made(with_cpfs("h(Discrete_{?o : obj} (P(?o) * 0.8))"));
     EXPECT_EQ(made.cpf_of("c"), "next.c = state.h[sample interval@0[0](c-thresholds)]");
