@@ -12,6 +12,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <type_traits>
 
 namespace rddl {
 
@@ -20,9 +21,9 @@ class AnyEngine {
   public:
     using Lane = L;
 
-    // The engine must outlive this one.
-    template <Engine E>
-    explicit AnyEngine(const E& engine)
+    // The engine must outlive this one. With `for_batches` it steps many blocks in one call.
+    template <Engine E, bool for_batches>
+    AnyEngine(const E& engine, std::bool_constant<for_batches>)
         : engine_(&engine),
           state_size_(engine.state_size()),
           action_size_(engine.action_size()),
@@ -34,13 +35,14 @@ class AnyEngine {
                          const StateRecords& records, Context<L>& context) -> Bool {
             return rddl::reset_some(of<E>(self), columns, lanes, records, context);
         };
-        // Only one of them is set, since compilers stop inlining in simulators that have both.
+        // A simulator with packs sets one of them for each of its engines: with a third copy of the
+        // step, compilers would no longer inline it.
         if constexpr (L::width == 1)
             advance_one_ = [](const void* self, const BatchView<L>& view, std::int64_t b,
                               Actions actions, const rddl_transition& out) RDDL_INLINE_LAMBDA {
                 return rddl::advance_one(of<E>(self), view, b, actions, out);
             };
-        else
+        if constexpr (for_batches)
             advance_ = [](const void* self, const Blocks<L>& blocks, Range range, Actions actions,
                           const StepBuffers& memory,
                           const rddl_transition& out) RDDL_INLINE_LAMBDA {
@@ -88,7 +90,8 @@ class AnyEngine {
         return violated_precondition_(engine_, state, action, context);
     }
 
-    // See rddl::advance, for packs.
+    // See rddl::advance, for engines for batches.
+    bool advances_many() const { return advance_ != nullptr; }
     Stop<L> advance(const Blocks<L>& blocks, Range range, Actions actions,
                     const StepBuffers& memory, const rddl_transition& out) const {
         return advance_(engine_, blocks, range, actions, memory, out);
@@ -146,6 +149,10 @@ template <class L>
 Stop<L> advance(const AnyEngine<L>& engine, const Blocks<L>& blocks, Range range, Actions actions,
                 const StepBuffers& memory, const rddl_transition& out) {
     return engine.advance(blocks, range, actions, memory, out);
+}
+template <class L>
+bool advances_many(const AnyEngine<L>& engine) {
+    return engine.advances_many();
 }
 template <class L>
 rddl_error advance_one(const AnyEngine<L>& engine, const BatchView<L>& view, std::int64_t b,

@@ -604,22 +604,23 @@ class Batch {
             return step_blocks(workspace, {b, b + 1}, {nullptr, block}, out);
         }
         // A block whose observations are written is in the cache only if no other one follows.
-        const bool alone = width == 1 || out.observations != nullptr;
+        const bool alone = !advances_many(*engine_) || out.observations != nullptr;
         range.end = alone ? b + 1 : std::min(range.end, options_.environment_count / width);
         return step_blocks(workspace, range, {rows, nullptr}, out);
     }
     std::int64_t step_blocks(Workspace& workspace, Range range, Actions actions,
                              const rddl_transition& out) {
         if constexpr (width == 1) {
-            const BatchView<L>& view = views_[index(&workspace - workspaces_.data())];
-            advance_one(*engine_, view, range.begin, actions, out);
-            return range.begin + 1;
-        } else {
-            const Stop<L> stop =
-                advance(*engine_, blocks_, range, actions, workspace.step_buffers, out);
-            if (stop.block == range.end && out.observations == nullptr) return range.end;
-            return go_on(workspace, range, stop, actions, out);
+            if (range.end == range.begin + 1) {
+                const BatchView<L>& view = views_[index(&workspace - workspaces_.data())];
+                advance_one(*engine_, view, range.begin, actions, out);
+                return range.end;
+            }
         }
+        const Stop<L> stop =
+            advance(*engine_, blocks_, range, actions, workspace.step_buffers, out);
+        if (stop.block == range.end && out.observations == nullptr) return range.end;
+        return go_on(workspace, range, stop, actions, out);
     }
 
     // Finishes a step of blocks that stopped; returns the first block that has made no step.

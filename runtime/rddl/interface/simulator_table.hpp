@@ -57,9 +57,8 @@ class SimulatorTable {
   public:
     SimulatorTable(const About& about, E engine)
         : engine_(std::move(engine)),
-          parts_{
-              &about.problem,  about.sites,  about.constants, AnyEngine<typename E::Lane>(engine_),
-              packed_engine(), about.policy, about.details,   simd::level},
+          parts_{&about.problem,  about.sites,  about.constants, one_by_one(),
+                 packed_engine(), about.policy, about.details,   simd::level},
           table_(table_of(parts_)) {}
     SimulatorTable(const SimulatorTable&) = delete;
     SimulatorTable& operator=(const SimulatorTable&) = delete;
@@ -69,17 +68,22 @@ class SimulatorTable {
   private:
     using L = typename Packed::Lane;
 
+    static constexpr bool has_packs = !std::is_same_v<Packed, E>;
+
+    // Without packs it also steps batches.
+    AnyEngine<typename E::Lane> one_by_one() const {
+        return {engine_, std::bool_constant<!has_packs>{}};
+    }
     AnyEngine<L> packed_engine() const {
-        if constexpr (std::is_same_v<Packed, E>)
-            return AnyEngine<L>(engine_);
+        if constexpr (has_packs)
+            return {packed_engine_, std::true_type{}};
         else
-            return AnyEngine<L>(packed_engine_);
+            return one_by_one();
     }
 
     struct Nothing {};
     E engine_;
-    [[no_unique_address]] std::conditional_t<std::is_same_v<Packed, E>, Nothing, Packed>
-        packed_engine_;
+    [[no_unique_address]] std::conditional_t<has_packs, Packed, Nothing> packed_engine_;
     SimulatorParts<L> parts_;
     rddl_simulator table_;
 };

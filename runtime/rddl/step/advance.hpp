@@ -200,14 +200,12 @@ RDDL_ALWAYS_INLINE void write_ends(const Blocks<L>& blocks, std::int64_t b, cons
 // A step of the running episodes of the blocks from range.begin on, whose rewards and ends are
 // written; observations are not. With automatic resets it stops at the first block whose episodes
 // are to start again; else at range.end. `memory` is room to work in. Rows of less than a whole
-// block are not read: such a block comes with a block of actions. A block of one environment is
-// always the only one, so that it costs no loop.
+// block are not read: such a block comes with a block of actions.
 template <Engine E, class L = typename E::Lane>
 RDDL_ALWAYS_INLINE Stop<L> advance(const E& engine, const Blocks<L>& blocks, Range range,
                                    Actions actions, const StepBuffers& memory,
                                    const rddl_transition& out) {
     using Bool = typename L::Bool;
-    if constexpr (L::width == 1) range.end = range.begin + 1;
     for (std::int64_t b = range.begin; b < range.end; ++b) {
         const Bool present = blocks.episodes[b].is_present();
         const Bool running = blocks.episodes[b].running();
@@ -232,6 +230,12 @@ RDDL_ALWAYS_INLINE Stop<L> advance(const E& engine, const Blocks<L>& blocks, Ran
             start_next(engine, blocks, b, over, memory.next);
     }
     return {range.end, false};
+}
+
+// Whether it advances many blocks in one call.
+template <Engine E>
+constexpr bool advances_many(const E&) {
+    return true;
 }
 
 // ----------------------------------------------------------------- blocks of one environment

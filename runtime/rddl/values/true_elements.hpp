@@ -129,8 +129,12 @@ template <std::size_t n, class Mark>
 RDDL_INLINE void visit_true(const TrueElements<n>& elements, Mark&& mark) {
     if (elements.first == static_cast<Index>(n)) return;
     mark(elements.first, true);
+    // A call of its own, so that the marks stand in the step only once.
     if (elements.has_others) [[unlikely]]
-        detail::for_each_one(elements.others, [&](Index x) RDDL_INLINE_LAMBDA { mark(x, true); });
+        [&]() __attribute__((noinline)) {
+            detail::for_each_one(elements.others, [&](Index x) { mark(x, true); });
+        }
+    ();
 }
 template <std::size_t n, int width, class Mark>
 RDDL_INLINE void visit_true(const std::array<Mask<width>, n>& elements, Mark&& mark) {
