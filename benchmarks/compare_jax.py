@@ -185,16 +185,26 @@ def comparison_of(row: str, jax_version: str) -> Comparison:
     return Comparison(label, 1, jax_version, jax, doubles, floats, our_first_step, jax_first_step, jax_import)
 
 
-def with_kept_rows(measured: list[Comparison], others: list[NotRun]) -> list[Comparison]:
-    """The document's rows of other instances, and the new ones, by name."""
-    section = (ROOT / "docs/results/benchmarks.md").read_text().split("<!-- begin of jax by problem -->")[1]
-    rows = section.split("\n\n")[1].splitlines()[2:]
-    new = {entry.label for entry in [*measured, *others]}
-    kept = [comparison_of(row, measured[0].jax_version) for row in rows]
-    return sorted([*measured, *(c for c in kept if c.label not in new)], key=lambda c: c.label)
+def not_run_of(line: str) -> NotRun:
+    """The instance of a line below the table."""
+    label, reason = line.removeprefix("* ").split(": ", 1)
+    return NotRun(label, 1, reason)
 
 
-def write_document(comparisons: list[Comparison], not_run: list[NotRun]) -> None:
+def with_kept_lines(new: list[Comparison | NotRun], jax_version: str) -> list[Comparison | NotRun]:
+    """What the document says of other instances, and the new entries, by name."""
+    lines = (ROOT / "docs/results/benchmarks.md").read_text().split("<!-- begin of jax by problem -->")[1]
+    lines = lines.split("<!-- end of")[0].splitlines()
+    rows = [line for line in lines if line.startswith("|")][2:]
+    kept = [comparison_of(row, jax_version) for row in rows]
+    kept += [not_run_of(line) for line in lines if line.startswith("* ")]
+    labels = {entry.label for entry in new}
+    return sorted([*new, *(entry for entry in kept if entry.label not in labels)], key=lambda entry: entry.label)
+
+
+def write_document(entries: list[Comparison | NotRun]) -> None:
+    comparisons = [entry for entry in entries if isinstance(entry, Comparison)]
+    not_run = [entry for entry in entries if isinstance(entry, NotRun)]
     about = f"{machine_text()}; pyRDDLGym-jax {comparisons[0].jax_version}; {len(comparisons)} instances"
     write_section("jax", f"{about}:\n\n{markdown_table(summary_rows(comparisons))}")
     table = markdown_table([(*TITLES, *TIME_TITLES), *map(row_of, comparisons)])
@@ -256,9 +266,7 @@ def main() -> int:
     short = shortfalls(comparisons)
     print(*short, sep="\n")
     if options.write:
-        not_run = [entry for entry in entries if isinstance(entry, NotRun)]
-        shown = with_kept_rows(comparisons, not_run) if options.problems else comparisons
-        write_document(shown, not_run)
+        write_document(with_kept_lines(entries, comparisons[0].jax_version) if options.problems else entries)
     return 1 if failures or (options.require and short) else 0
 
 

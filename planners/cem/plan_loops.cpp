@@ -3,6 +3,7 @@
 #include <rddl/lanes/processor.hpp>
 
 #include <bit>
+#include <limits>
 
 namespace rddlc::planners {
 

@@ -156,14 +156,17 @@ inline bool is_short(const RealScale& real) {
 
 inline void real_values(const RealScale& real, const float* numbers, std::size_t plans,
                         double* values) {
+    constexpr double greatest = std::numeric_limits<float>::max();
+    const double least = clamped(real.least, -greatest, greatest);
+    const double most = clamped(real.most, -greatest, greatest);
     if (is_short(real)) {
-        const auto least = static_cast<float>(real.least), most = static_cast<float>(real.most);
+        const auto short_least = static_cast<float>(least), short_most = static_cast<float>(most);
         finish_values<float>(real, numbers, plans, values, [=](float value) {
-            return static_cast<double>(clamped(value, least, most));
+            return static_cast<double>(clamped(value, short_least, short_most));
         });
         return;
     }
-    const double lower = real.lower, upper = real.upper, least = real.least, most = real.most;
+    const double lower = real.lower, upper = real.upper;
     const float short_default = real.short_default;
     const double exact_default = real.exact_default;
     finish_values<double>(real, numbers, plans, values, [=](double value) {

@@ -24,8 +24,9 @@ const PlanLoops& loops_of(const char* instruction_set) {
 // A count that is no multiple of any vector's.
 constexpr std::size_t plans = 77;
 
-RealScale scale_of_range(solvers::RealHead::Range range, bool rounds) {
-    return {range, rounds, -2.5, 7.25, 3, 0.5, -2.5, 7.25, 0.1f, 0.1};
+RealScale scale_of_range(solvers::RealHead::Range range, bool rounds, double exact_default) {
+    return {range,        rounds, -2.5, 7.25, 3, 0.5, -2.5, 7.25, static_cast<float>(exact_default),
+            exact_default};
 }
 
 TEST(PlanLoops, ComputeTheSameBitsOnAllInstructionSets) {
@@ -80,9 +81,11 @@ TEST(PlanLoops, ComputeTheSameBitsOnAllInstructionSets) {
                                 numbers.data());
             note(numbers);
             for (const bool rounds : {false, true}) {
-                loops.real_values(scale_of_range(range, rounds), numbers.data(), plans,
-                                  values.data());
-                note(values);
+                for (const double exact_default : {0.1, 0.125}) {  // in doubles, and in floats
+                    loops.real_values(scale_of_range(range, rounds, exact_default), numbers.data(),
+                                      plans, values.data());
+                    note(values);
+                }
             }
         }
         return all;
@@ -143,6 +146,11 @@ TEST(PlanLoops, GiveRealsTheirValues) {
     plan_loops().real_values({Range::Free, true, -infinity, infinity, 1, 0, -1e9, 1e9, 0.0f, 0.0},
                              &huge, 1, &most);
     EXPECT_EQ(most, 1e9);
+    // Bounds beyond the floats do not make actions infinite.
+    plan_loops().real_values(
+        {Range::AboveLower, false, 1e308, infinity, 1, 0, 1e308, infinity, 0.0f, 0.0}, &huge, 1,
+        &most);
+    EXPECT_EQ(most, 1e308);
     // A value that is the default as a float is the default itself.
     const float middle = 0;
     double value = 0;

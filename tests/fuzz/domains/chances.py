@@ -1,11 +1,11 @@
-"""Draws: by chances that neighbours multiply, where few bools reach, for what few actions choose, by weights of one form."""
+"""Draws: by chances that neighbours multiply, where few bools reach, for what few actions choose, by weights of one form, from rows of tables."""
 
 from domains.draft import ACTION, CONSTANT, MANY, STATE, Draft, boolean, of, over, real
 from rddl_problem import Type
 
 
 def add(draft: Draft) -> None:
-    for part in draft.rng.sample([infection, wanderers, lessons, arrivals, spinners], draft.pick([2, 2, 3])):
+    for part in draft.rng.sample([infection, wanderers, lessons, arrivals, spinners, moods], draft.pick([2, 2, 3])):
         part(draft)
 
 
@@ -102,3 +102,37 @@ def spinners(draft: Draft) -> None:
         drawn = over(draft.pick(["argmax", "argmin"]), "?x", side.name, weight("?x"))
     draft.define(shows, ("?s",), drawn)
     draft.earn(over("sum", "?s", spinner, boolean("(%s == %s)", draft.at(shows, "?s"), draft.pick(literals))))
+
+
+def moods(draft: Draft) -> None:
+    """Markov chains: enumerated values choose a row of weights from a table. Some rows do not add up to 1."""
+    owner = draft.objects("owner")
+    mood = draft.enumeration("mood", draft.pick([2, 3, 5]))
+    now, command = draft.declare("feels", STATE, mood.name, owner), draft.declare("CHEER", ACTION, mood.name, owner, default="@" + mood.members[0])
+    after, chance = draft.declare("AFTER", CONSTANT, mood.name, mood.name), draft.declare("SHIFT", CONSTANT, "real", mood.name, mood.name, default="0.0")
+    for member in mood.members:
+        shares = [draft.pick([0, 0, 1, 3]) for _ in mood.members[1:]]
+        is_wrong = draft.reveals and draft.chance(0.1)
+        shares.append(draft.pick([-4, 0, 16]) if is_wrong else 16 - sum(shares))
+        draft.rng.shuffle(shares)
+        chance.values |= {(member, to): str(share / 16) for to, share in zip(mood.members, shares)}
+    present, other = draft.at(now, "?w"), draft.at(command, "?w")
+    is_calm = boolean("(%s == @%s)", other, mood.members[0])
+    chosen = draft.at(draft.interm("inner", {"?w": owner}, of(mood.name, "(if (%s) then %s else %s)", is_calm, present, other)), "?w")
+    row = draft.pick([present, draft.at(after, present), chosen, draft.at(after, chosen)])
+
+    def weight(of_mood) -> real:
+        number = draft.at(chance, row, of_mood)
+        return real("(0.75 * %s + 0.25 * %s)", number, draft.at(chance, other, of_mood)) if is_mixed else number
+
+    is_mixed = draft.chance(0.3)
+    literals = [mood.literal(member) for member in mood.members]
+    if not draft.flavour.draws:
+        drawn = over("argmax", "?x", mood.name, weight("?x"))
+    elif draft.chance(0.5):
+        drawn = over("Discrete", "?x", mood.name, weight("?x"))
+    else:
+        cases = ", ".join(f"{literal} : %s" for literal in literals)
+        drawn = of(mood.name, f"Discrete({mood.name}, {cases})", *(weight(literal) for literal in literals))
+    draft.define(now, ("?w",), drawn)
+    draft.earn(over("sum", "?w", owner, boolean("(%s == %s)", present, draft.pick(literals))))

@@ -31,7 +31,7 @@ def boolean(form: str, *parts) -> Expr:
 
 def over(operator: str, variable: str, type_name: str, body: Expr) -> Expr:
     """An aggregation over the objects of a type."""
-    kind = "bool" if operator in ("exists", "forall") else type_name if operator.startswith("arg") else body.kind
+    kind = "bool" if operator in ("exists", "forall") else type_name if operator.startswith(("arg", "Discrete")) else body.kind
     kind = "int" if operator == "sum" and body.kind == "bool" else "real" if operator == "avg" else kind
     return of(kind, f"({operator}_{{{variable} : {type_name}}} [%s])", body)
 
