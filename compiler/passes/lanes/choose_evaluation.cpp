@@ -128,8 +128,13 @@ class Gathering {
                 return ir::is_same_for_all(builder_.properties(index), nest);
             });
         };
+        const auto is_of_object = [&](ir::NodeId index) {
+            return ir::depends_on_any(builder_.properties(index), nest.variables);
+        };
         const std::span<const ir::NodeId> indices = load.indices;
-        if (are_same(indices)) return ir::Gather::None;
+        // A word takes one bool for all of its objects, though environments may differ in it.
+        const bool is_one_bool = are_words_ && std::ranges::none_of(indices, is_of_object);
+        if (are_same(indices) || is_one_bool) return ir::Gather::None;
         const bool is_in_row = ir::ends_with(program_, load.indices, nest) &&
                                are_same(indices.first(indices.size() - nest.variables.size()));
         return is_in_row ? ir::Gather::InRow : ir::Gather::Own;

@@ -15,6 +15,8 @@ std::string chosen(const std::string& cpf_of_v, const std::string& type = "real"
         .pvariables =
 
             "KIND(obj, obj) : { non-fluent, obj };\n"
+            "LINK(obj, obj) : { non-fluent, bool, default = false };\n"
+            "at : { state-fluent, obj };\n"
             "P(obj, obj) : { non-fluent, real, default = 0.5 };\n"
             "T(obj, obj) : { non-fluent, real, default = 1.0 };\n"
             "CHANCE(obj, obj) : { non-fluent, real, default = 1.0 };\n"
@@ -24,14 +26,15 @@ std::string chosen(const std::string& cpf_of_v, const std::string& type = "real"
             "s(obj, obj) : { state-fluent, obj };\n"
             "x(obj, obj) : { state-fluent, real, default = 0.0 };\n"
             "a : { action-fluent, bool, default = false };",
-        .cpfs = "v'(?o, ?q) = " + cpf_of_v + ";\nx'(?o, ?q) = x(?o, ?q);\ns'(?o, ?q) = s(?o, ?q);",
+        .cpfs = "v'(?o, ?q) = " + cpf_of_v +
+                ";\nx'(?o, ?q) = x(?o, ?q);\ns'(?o, ?q) = s(?o, ?q);\nat' = at;",
         .non_fluents =
-            "P(b1, b2) = 0.25; "
+            "P(b1, b2) = 0.25; LINK(b1, b2) = true; "
             "KIND(b1, b1) = @b2; KIND(b1, b2) = @b3; KIND(b1, b3) = @b1; KIND(b2, b1) = @b3; "
             "KIND(b2, b2) = @b2; KIND(b2, b3) = @b1; KIND(b3, b1) = @b1; KIND(b3, b2) = @b1; "
             "KIND(b3, b3) = @b1; T(b1, b2) = 2.0; CHANCE(b1, b2) = 0.25;",
         .init_state =
-            "s(b1, b1) = @b1; s(b1, b2) = @b1; s(b1, b3) = @b1; s(b2, b1) = @b1; "
+            "at = @b1; s(b1, b1) = @b1; s(b1, b2) = @b1; s(b1, b3) = @b1; s(b2, b1) = @b1; "
             "s(b2, b2) = @b1; s(b2, b3) = @b1; s(b3, b1) = @b1; s(b3, b2) = @b1; "
             "s(b3, b3) = @b1;"};
     passes::Report report;
@@ -121,6 +124,10 @@ std::string chosen_for_rows(const std::string& cpf_of_x, const std::string& type
     const std::string text = ir::print(program);
     const std::size_t begin = text.find("scratch.x[o] = ") + 15;
     return text.substr(begin, text.find("\n", begin) - begin);
+}
+
+TEST(ChooseEvaluation, LoadsABoolForAllObjectsOnce) {
+    EXPECT_EQ(chosen("LINK(at, at)", "bool"), "LINK[state.at, state.at]");
 }
 
 TEST(ChooseEvaluation, VisitsTrueElementsOfRowsAlone) {
