@@ -1,5 +1,4 @@
-// A row of bools that depends on which of its places a few ints have is one int, whose bits are
-// set.
+// A row of bools that depends on the values of a few ints becomes one int. Each value sets its bit.
 //
 //     before:  for n in number
 //                  next.seen[n] = select(action.stop, false, state.seen[n] ||
