@@ -15,6 +15,7 @@
 #include "passes/aggregations/make_aggregations_sparse.hpp"
 #include "passes/aggregations/merge_draws.hpp"
 #include "passes/aggregations/search_intervals.hpp"
+#include "passes/aggregations/set_bits.hpp"
 #include "passes/aggregations/skip_zero_terms.hpp"
 #include "passes/aggregations/tabulate_counts.hpp"
 #include "passes/aggregations/tabulate_thresholds.hpp"
@@ -167,6 +168,12 @@ constexpr Pass in_order[] = {
      "few true bools of a row look up masks of what they reach",
      {"index_directly"},
      "an equality is better than a mask; and the passes below take aggregations apart"},
+    {"set_bits",
+     Phase::Aggregations,
+     set_bits,
+     "rows of bools that few ints decide are ints, whose bits are set",
+     {"index_directly"},
+     "an equality inside the row is better; and the passes below take aggregations apart"},
     {"visit_true",
      Phase::Aggregations,
      visit_true,

@@ -16,7 +16,7 @@ def add(draft: Draft) -> None:
     grown = real("(%s + (?n == %s) * %s)", draft.at(worth, "?n"), draft.at(head), gain)
     shared = real("(%s - %s)", draft.at(worth, "?n"), draft.at(worth, draft.at(after, "?n")))
     draft.define(worth, ("?n",), draft.bounded(draft.pick([grown, shared])))
-    for part in draft.rng.sample([carriers, sums_at_head, loops], draft.pick([1, 2, 3])):
+    for part in draft.rng.sample([carriers, sums_at_head, loops, walkers], draft.pick([1, 2, 3])):
         part(draft, node, after, head, worth)
     draft.earn(draft.revealed(draft.at(worth, chain(draft, node, after, head))))
 
@@ -73,3 +73,25 @@ def loops(draft: Draft, node: str, after, head, worth) -> None:
     draft.earn(fixed)
     if draft.chance(0.5):
         draft.problem.terminations.append(boolean("(%s > %s)", fixed, draft.pick(["1", "3", "60"])))
+
+
+def walkers(draft: Draft, node: str, after, head, worth) -> None:
+    """The nodes on which walkers stand, of each team."""
+    team, walker = draft.objects("team"), draft.objects("walker")
+    stands = draft.declare("walks", STATE, node, walker)
+    draft.define(stands, ("?w",), draft.at(after, draft.at(stands, "?w")))
+    seen = draft.declare("seen", STATE, "bool", *draft.pick([(node,), (team, node)]))
+    variables = ("?t", "?n")[-len(seen.parameters) :]
+    scope = dict(zip(variables, seen.parameters))
+    same = boolean(draft.pick(["(?n == %s)", "(%s == ?n)"]), draft.at(stands, "?w"))
+    walks = boolean(draft.pick(["(%s ^ %s)", "(%s ^ %s)", "(%s | %s)"]), draft.some_bool({"?w": walker}), same)
+    there = over("exists", "?w", walker, walks)
+    form = draft.pick(["(%s | %s)", "(~%s ^ %s)", "(if (%s) then true else %s)", "(if (%s) then false else %s)"])
+    row = boolean(form, there, draft.pick([draft.at(seen, *variables), draft.some_bool(scope)]))
+    if draft.chance(0.5):
+        row = boolean("(if (%s) then %s else %s)", draft.some_bool({}), draft.some_bool(scope), row)
+    draft.define(seen, variables, row)
+    total = draft.at(seen, *variables)
+    for variable, type_name in reversed(scope.items()):
+        total = over("sum", variable, type_name, total)
+    draft.earn(total)

@@ -1,0 +1,219 @@
+#include "passes/aggregations/set_bits.hpp"
+
+#include "ir/analysis.hpp"
+#include "ir/call.hpp"
+#include "ir/nest.hpp"
+#include "ir/reduction_nest.hpp"
+#include "ir/rewrite.hpp"
+#include "passes/analyses/constant_values.hpp"
+
+#include <algorithm>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace rddlc::passes {
+namespace {
+
+// Fewer elements are computed one by one in the time that their bits take.
+constexpr std::int64_t least_bits = 8;
+constexpr std::int64_t bits_of_an_int = 64;
+// More ints than this set no bits, since the text has a term for each of them.
+constexpr std::int64_t most_ints = 8;
+
+class BitSetting {
+  public:
+    BitSetting(ir::Program program, Report& report)
+        : program_(std::move(program)), report_(report), builder_(program_) {}
+
+    ir::Program run() && {
+        for (ir::Definition& definition : program_.step) change(definition);
+        return ir::collect_garbage(std::move(program_));
+    }
+
+  private:
+    void change(ir::Definition& definition) {
+        auto* const outermost = ir::only_statement<ir::Loop>(definition.body);
+        if (!outermost) return;
+        std::vector<ir::VariableId> rows = ir::nest_of(*outermost).variables;
+        const auto* found = ir::only_statement<ir::Store>(ir::innermost_body(*outermost));
+        if (!found) return;
+        const ir::Store store = *found;
+        const bool may_be = program_[store.target].scalar == ir::Scalar::Bool &&
+                            ir::are_variables_of(program_, store.indices, {rows, nullptr}) &&
+                            ir::is_droppable(builder_.properties(store.value)) &&
+                            ir::is_known_before(program_, store.value, {store.target});
+        if (!may_be) return;
+        target_ = store.target;
+        span_ = definition.span;
+        element_ = rows.back();
+        rows.pop_back();
+        if (size() < least_bits || size() > bits_of_an_int) return;
+        sets_bits_ = false;
+        const auto word = word_of(store.value);
+        if (!word || !sets_bits_) return;
+        definition.body = ir::looped(
+            {{ir::Spread{store.target, {store.indices.begin(), store.indices.end() - 1}, *word}}},
+            rows);
+        ++report_["rows of bools whose bits are set"];
+    }
+
+    // ------------------------------------------------------------------------------- the row
+
+    // A bool of each element as the bits of an int, which are 0 beyond the end of the row.
+    std::optional<ir::NodeId> word_of(ir::NodeId id) {
+        const ir::Properties properties = builder_.properties(id);
+        if (!depends_on_element(id)) return builder_.select(id, all(), none());
+        if (properties.uniform && properties.free_variables.size() == 1) return known_word(id);
+        const ir::Node node = program_[id];
+        if (const auto* load = std::get_if<ir::Load>(&node.form)) return bits_of(*load);
+        if (const auto* select = std::get_if<ir::Select>(&node.form)) return word_of(*select);
+        if (const auto* apply = std::get_if<ir::Apply>(&node.form)) return word_of(*apply);
+        return word_of_exists(id);
+    }
+
+    std::optional<ir::NodeId> known_word(ir::NodeId id) {
+        const ir::Evaluator evaluator(std::as_const(program_));
+        const auto values = constant_values(evaluator, program_, id, {element_});
+        if (!values) return std::nullopt;
+        std::uint64_t word = 0;
+        for (std::size_t i = 0; i < values->size(); ++i)
+            word |= std::uint64_t{std::get<bool>((*values)[i])} << i;
+        return builder_.constant(static_cast<std::int64_t>(word));
+    }
+
+    // The elements of a row, in their order.
+    std::optional<ir::NodeId> bits_of(const ir::Load& load) {
+        const std::vector<ir::NodeId> row(load.indices.begin(), load.indices.end() - 1);
+        const bool is_row =
+            program_[load.buffer].storage != ir::Storage::Constant &&
+            load.indices.back() == builder_.index(element_) &&
+            program_[load.buffer].shape.back() == size() &&
+            std::ranges::none_of(row, [&](ir::NodeId index) { return depends_on_element(index); });
+        return is_row ? std::optional(builder_.bits(load.buffer, 0, row)) : std::nullopt;
+    }
+
+    std::optional<ir::NodeId> word_of(const ir::Select& select) {
+        const auto a = word_of(select.then_value), b = word_of(select.else_value);
+        if (!a || !b) return std::nullopt;
+        if (!depends_on_element(select.condition)) return builder_.select(select.condition, *a, *b);
+        const auto where = word_of(select.condition);
+        if (!where) return std::nullopt;
+        if (*a == all()) return either(*where, *b);
+        return either(both(*where, *a), both(inverted(*where), *b));
+    }
+
+    std::optional<ir::NodeId> word_of(const ir::Apply& apply) {
+        if (!is_one_of(apply.op, {Operator::And, Operator::Or, Operator::Not})) return std::nullopt;
+        const auto a = word_of(apply.operands.front()), b = word_of(apply.operands.back());
+        if (!a || !b) return std::nullopt;
+        if (apply.op == Operator::Not) return inverted(*a);
+        return apply.op == Operator::And ? both(*a, *b) : either(*a, *b);
+    }
+
+    // ------------------------------------------------------------------------- ints of objects
+
+    // exists[d](condition[d] && value[d] == element): the bit of each value whose condition holds.
+    std::optional<ir::NodeId> word_of_exists(ir::NodeId id) {
+        const auto nest = ir::whole_reduction_nest(program_, id, Reduction::Exists);
+        if (!nest || ir::combinations(program_, nest->variables) > most_ints) return std::nullopt;
+        std::vector<ir::NodeId> conditions = ir::parts_of(program_, nest->body, Operator::And);
+        const auto equality = std::ranges::find_if(
+            conditions, [&](ir::NodeId part) { return depends_on_element(part); });
+        if (equality == conditions.end()) return std::nullopt;
+        const auto value = value_that_is_element(*equality);
+        conditions.erase(equality);
+        const bool is_only_one = std::ranges::none_of(
+            conditions, [&](ir::NodeId part) { return depends_on_element(part); });
+        if (!value || !is_only_one) return std::nullopt;
+        const auto bit = bit_of(*value);
+        if (!bit) return std::nullopt;
+        sets_bits_ = true;
+        const ir::NodeId term =
+            builder_.select(ir::joined(builder_, Operator::And, conditions), *bit, none());
+        return united(term, nest->variables);
+    }
+
+    // `value == element`, in either order.
+    std::optional<ir::NodeId> value_that_is_element(ir::NodeId part) {
+        const auto* apply = std::get_if<ir::Apply>(&program_[part].form);
+        if (!apply || apply->op != Operator::Equal) return std::nullopt;
+        ir::NodeId a = apply->operands.front(), b = apply->operands.back();
+        if (a == builder_.index(element_)) std::swap(a, b);
+        return b == builder_.index(element_) && !depends_on_element(a) ? std::optional(a)
+                                                                       : std::nullopt;
+    }
+
+    // The bit of an int, looked up: 0 for ints that are the place of no element.
+    std::optional<ir::NodeId> bit_of(ir::NodeId value) {
+        const auto range = builder_.properties(value).range;
+        if (!range || range->lower < 0 || range->upper >= bits_of_an_int) return std::nullopt;
+        std::vector<ir::Value> bits;
+        for (std::int64_t i = 0; i <= static_cast<std::int64_t>(range->upper); ++i)
+            bits.emplace_back(
+                static_cast<std::int64_t>(i < size() ? std::uint64_t{1} << i : std::uint64_t{0}));
+        const ir::BufferId table =
+            builder_.tables().list(program_[target_].name + "-bit", ir::Scalar::Int, bits, span_);
+        return builder_.load(table, {value});
+    }
+
+    // The bits of a term for all objects.
+    ir::NodeId united(ir::NodeId term, const std::vector<ir::VariableId>& variables) {
+        ir::NodeId bits = none();
+        for (std::int64_t i = 0; i < ir::combinations(program_, variables); ++i) {
+            std::map<ir::NodeId, ir::NodeId> known;
+            std::int64_t rest = i;
+            for (auto each = variables.rbegin(); each != variables.rend(); ++each) {
+                const std::int64_t count = program_[*each].size;
+                known[builder_.index(*each)] = builder_.constant(rest % count);
+                rest /= count;
+            }
+            bits = either(bits, ir::replace_in(builder_, term, known));
+        }
+        return bits;
+    }
+
+    // --------------------------------------------------------------------------------- words
+
+    std::int64_t size() const { return program_[element_].size; }
+    bool depends_on_element(ir::NodeId id) const {
+        return ir::depends_on_any(builder_.properties(id), {&element_, 1});
+    }
+
+    ir::NodeId none() { return builder_.constant(std::int64_t{0}); }
+    ir::NodeId all() {
+        return builder_.constant(
+            static_cast<std::int64_t>(~std::uint64_t{0} >> (bits_of_an_int - size())));
+    }
+    ir::NodeId inverted(ir::NodeId word) { return builder_.apply(Operator::BitXor, {word, all()}); }
+    ir::NodeId either(ir::NodeId a, ir::NodeId b) {
+        return builder_.apply(Operator::BitOr, {a, b});
+    }
+    ir::NodeId both(ir::NodeId a, ir::NodeId b) {
+        if (a == all()) return b;
+        if (b == all()) return a;
+        return builder_.apply(Operator::BitAnd, {a, b});
+    }
+
+    ir::Program program_;
+    Report& report_;
+    ir::Builder builder_;
+
+    // Members of the loop at hand.
+    ir::BufferId target_ = {};
+    Span span_;
+    ir::VariableId element_ = {};  // the innermost one: its objects are the bits
+    bool sets_bits_ = false;       // an int of an object does
+};
+
+}  // namespace
+
+ir::Program set_bits(ir::Program program, Report& report) {
+    return BitSetting(std::move(program), report).run();
+}
+
+}  // namespace rddlc::passes
