@@ -4,6 +4,9 @@
 
 #include <bit>
 #include <cmath>
+#include <cstdint>
+#include <map>
+#include <optional>
 #include <utility>
 
 namespace rddlc::passes {
@@ -48,6 +51,36 @@ std::optional<ir::NodeId> reduced_power(ir::Builder& builder, ir::NodeId base,
     return std::nullopt;
 }
 
+// The bool that a term makes a number of: real(b), real(!b) and the products of these with
+// constants.
+std::optional<ir::NodeId> bool_of_term(const ir::Program& program, ir::NodeId id) {
+    if (const auto* apply = std::get_if<ir::Apply>(&program[id].form)) {
+        if (apply->op != Operator::Multiply) return std::nullopt;
+        const ir::NodeId a = apply->operands.front(), b = apply->operands.back();
+        if (ir::constant<double>(program, a)) return bool_of_term(program, b);
+        return ir::constant<double>(program, b) ? bool_of_term(program, a) : std::nullopt;
+    }
+    if (!is_from_bool(program, id)) return std::nullopt;
+    const ir::NodeId operand = std::get<ir::Convert>(program[id].form).operand;
+    const auto* apply = std::get_if<ir::Apply>(&program[operand].form);
+    return apply && apply->op == Operator::Not ? apply->operands.front() : operand;
+}
+
+// The sum or difference of two terms of one bool.
+std::optional<ir::NodeId> one_of_two(ir::Builder& builder, const ir::Apply& apply) {
+    const auto condition = bool_of_term(builder.program(), apply.operands.front());
+    if (!condition || condition != bool_of_term(builder.program(), apply.operands.back()))
+        return std::nullopt;
+    const auto value_if = [&](bool value) {
+        std::map<ir::NodeId, ir::NodeId> known = {{*condition, builder.constant(value)}};
+        const ir::NodeId a = ir::replace_in(builder, apply.operands.front(), known),
+                         b = ir::replace_in(builder, apply.operands.back(), known);
+        return builder.apply(apply.op, {a, b});
+    };
+    const ir::NodeId then_value = value_if(true), else_value = value_if(false);
+    return builder.select(*condition, then_value, else_value);
+}
+
 std::optional<ir::NodeId> reduced(ir::Builder& builder, const ir::Apply& apply) {
     const ir::Program& program = builder.program();
     const ir::NodeId a = apply.operands.front(), b = apply.operands.back();
@@ -57,6 +90,8 @@ std::optional<ir::NodeId> reduced(ir::Builder& builder, const ir::Apply& apply) 
         if (!divisor || !is_power_of_two(*divisor)) return std::nullopt;
         return builder.apply(Operator::Multiply, {a, builder.constant(1 / *divisor)});
     }
+    if (apply.op == Operator::Add || apply.op == Operator::Subtract)
+        return one_of_two(builder, apply);
     if (apply.op != Operator::Multiply) return std::nullopt;
     const bool vanishes = (is_zero(program, a) && is_from_bool(program, b)) ||
                           (is_zero(program, b) && is_from_bool(program, a));

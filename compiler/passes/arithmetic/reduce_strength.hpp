@@ -4,6 +4,7 @@
 //     power(x, 2.0)              x * x, for cheap x: power() computes just that
 //     power(n, 3) of ints        n * n * n
 //     0.0 * real(b)              0.0
+//     1.25 * real(b) + real(!b)  select(b, 1.25, 1.0)
 #pragma once
 
 #include "ir/ir.hpp"

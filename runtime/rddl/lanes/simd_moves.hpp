@@ -120,6 +120,21 @@ template <std::int64_t size>
     }
 }
 
+// The elements at these places of a table of `count` unsigned ints, which registers may be able to
+// hold, in the lowest bits of words; what the other bits are is open.
+template <std::int64_t count, class T>
+[[gnu::always_inline]] inline Words look_up_lowest(const T* table, Ints places) {
+#ifdef RDDL_SIMD_AVX512
+    if constexpr (sizeof(T) == 2 && count <= 32) {
+        constexpr auto all = static_cast<__mmask32>((std::uint64_t{1} << count) - 1);
+        return (Words)_mm512_maskz_permutexvar_epi16(~__mmask32{0}, (__m512i)places,
+                                                     _mm512_maskz_loadu_epi16(all, table));
+    }
+#endif
+    constexpr auto size = static_cast<std::int64_t>(sizeof(T));
+    return gather_bytes<count * size>(table, places * size);
+}
+
 // Values of 8 bytes whose addresses are `distance` bytes apart.
 template <class V>
 [[gnu::always_inline]] inline V load_apart(const void* from, std::int64_t distance) {

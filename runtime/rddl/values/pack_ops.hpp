@@ -566,14 +566,13 @@ auto gather(const Lanes<T, n>* elements, const Lanes<std::int64_t, n>& indices) 
 }
 template <std::int64_t count, int n>
 Mask<n> gather(const Mask<n>* elements, const Lanes<std::int64_t, n>& indices) {
-    constexpr std::int64_t bytes = sizeof(Mask<n>);
+    const auto* const masks = reinterpret_cast<const typename Mask<n>::Bits*>(elements);
     Lanes<std::int64_t, n> bits;
     for (int p = 0; p < bits.part_count; ++p) {
         simd::Words lane{};
         for (int i = 0; i < simd::lanes; ++i)
             lane[i] = static_cast<std::uint64_t>(p * simd::lanes + i);
-        const simd::Words words =
-            simd::gather_bytes<count * bytes>(elements, indices.part[p] * bytes);
+        const simd::Words words = simd::look_up_lowest<count>(masks, indices.part[p]);
         bits.part[p] = (simd::Ints)(words >> lane);
     }
     return lowest_bits(bits);

@@ -29,6 +29,15 @@ TEST(ReduceStrength, DropsZeroTimesABool) {
     EXPECT_EQ(reduced("sum_{?o : obj} [0.0 * v(?o)]"), "sum[o in obj](0.0 * state.v[o])");
 }
 
+TEST(ReduceStrength, ChoosesWhereABoolDecidesASum) {
+    EXPECT_EQ(reduced("sum_{?o : obj} [p(?o) * 1.25 + ~p(?o)]"),
+              "sum[o in obj](select(state.p[o], 1.25, 1.0))");
+    EXPECT_EQ(reduced("sum_{?o : obj} [~p(?o) - 2.5 * p(?o)]"),
+              "sum[o in obj](select(state.p[o], -2.5, 1.0))");
+    EXPECT_EQ(reduced("sum_{?o : obj} [p(?o) * 0.5 + p(?o)]"),
+              "sum[o in obj](select(state.p[o], 1.5, 0.0))");
+}
+
 TEST(FastMath, MultipliesByReciprocals) {
     EXPECT_EQ(relaxed("x / 5"), "state.x * 0.2");
     EXPECT_EQ(relaxed("x * 3 / 2"), "state.x * 1.5");

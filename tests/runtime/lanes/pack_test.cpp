@@ -330,8 +330,8 @@ void expect_elements_of_scalars() {
             << own[lane] << " of " << size << " in lane " << lane << " on " << simd::level;
 }
 
-// Tables of up to 16 reals or 64 bools are kept in registers. Small tables are not read in units of
-// 8 bytes.
+// Tables of up to 16 reals or 64 bools, or 32 bools of each lane, are kept in registers. Small
+// tables are not read in units of 8 bytes.
 TEST(Packs, ReadTablesInEachLane) {
     expect_elements_of_scalars<1>();
     expect_elements_of_scalars<3>();
@@ -339,6 +339,8 @@ TEST(Packs, ReadTablesInEachLane) {
     expect_elements_of_scalars<9>();
     expect_elements_of_scalars<16>();
     expect_elements_of_scalars<17>();
+    expect_elements_of_scalars<32>();
+    expect_elements_of_scalars<33>();
     expect_elements_of_scalars<37>();
     expect_elements_of_scalars<64>();
     expect_elements_of_scalars<65>();
