@@ -5,6 +5,7 @@
 #include "ir/table_properties.hpp"
 #include "vocabulary/range.hpp"
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -54,6 +55,13 @@ inline bool is_droppable(const Properties& properties) {
 // The nodes that a node uses directly, place included, in evaluation order; the body of a binder
 // first.
 std::vector<NodeId> operands_of(const Node& node);
+// Whether has(id) holds for the node or one below it.
+template <class Has>
+bool any_node_of(const Program& program, NodeId id, const Has& has) {
+    return has(id) || std::ranges::any_of(operands_of(program[id]), [&](NodeId operand) {
+               return any_node_of(program, operand, has);
+           });
+}
 // The place of a node that draws or may fault.
 std::optional<Place> place_of(const Node& node);
 // The buffer that a node itself reads (Load, Search, Bits, Union, Element, Interval).

@@ -108,10 +108,9 @@ class Fusion {
     }
 
     bool reads_what_functions_use(ir::NodeId id) const {
-        const auto* load = std::get_if<ir::Load>(&program_[id].form);
-        if (load && readers_[load->buffer.index].functions) return true;
-        return std::ranges::any_of(ir::operands_of(program_[id]), [&](ir::NodeId operand) {
-            return reads_what_functions_use(operand);
+        return ir::any_node_of(program_, id, [&](ir::NodeId each) {
+            const auto* load = std::get_if<ir::Load>(&program_[each].form);
+            return load && readers_[load->buffer.index].functions;
         });
     }
 

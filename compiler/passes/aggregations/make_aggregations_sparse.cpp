@@ -161,9 +161,9 @@ class Rewriting {
     }
 
     bool reads_table(ir::NodeId id) const {
-        if (std::holds_alternative<ir::Load>(program_[id].form)) return true;
-        return std::ranges::any_of(ir::operands_of(program_[id]),
-                                   [&](ir::NodeId operand) { return reads_table(operand); });
+        return ir::any_node_of(program_, id, [&](ir::NodeId each) {
+            return std::holds_alternative<ir::Load>(program_[each].form);
+        });
     }
 
     // The node's values for the entries, unless it faults for some.

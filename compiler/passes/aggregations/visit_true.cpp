@@ -252,20 +252,19 @@ class Visiting {
 
     // A table that loops over many bools do not look up.
     bool reads_large_table(ir::NodeId id) const {
-        const auto* load = std::get_if<ir::Load>(&program_[id].form);
-        if (load && program_[load->buffer].storage != ir::Storage::Constant &&
-            program_[load->buffer].count() > most_looked_up_bools)
-            return true;
-        return std::ranges::any_of(ir::operands_of(program_[id]),
-                                   [&](ir::NodeId operand) { return reads_large_table(operand); });
+        return ir::any_node_of(program_, id, [&](ir::NodeId each) {
+            const auto* load = std::get_if<ir::Load>(&program_[each].form);
+            return load && program_[load->buffer].storage != ir::Storage::Constant &&
+                   program_[load->buffer].count() > most_looked_up_bools;
+        });
     }
 
     // The records of actions are those of callers, and may not be in a cache.
     bool reads_action(ir::NodeId id) const {
-        const auto buffer = ir::buffer_read_by(program_[id]);
-        return (buffer && program_[*buffer].storage == ir::Storage::Action) ||
-               std::ranges::any_of(ir::operands_of(program_[id]),
-                                   [&](ir::NodeId operand) { return reads_action(operand); });
+        return ir::any_node_of(program_, id, [&](ir::NodeId each) {
+            const auto buffer = ir::buffer_read_by(program_[each]);
+            return buffer && program_[*buffer].storage == ir::Storage::Action;
+        });
     }
 
     // Neither a value that the definition itself computes nor another aggregation is part of it.
@@ -273,9 +272,9 @@ class Visiting {
         return ir::is_known_before(program_, id, filled_) && !has_aggregation(id);
     }
     bool has_aggregation(ir::NodeId id) const {
-        return ir::bound_variable(program_[id]) ||
-               std::ranges::any_of(ir::operands_of(program_[id]),
-                                   [&](ir::NodeId operand) { return has_aggregation(operand); });
+        return ir::any_node_of(program_, id, [&](ir::NodeId each) {
+            return ir::bound_variable(program_[each]).has_value();
+        });
     }
 
     // Then the pairs of which it does not hold are left out.

@@ -119,26 +119,20 @@ class Marking {
                 jumps(store.value) && !reads_new_values(store.value));
     }
     bool jumps(ir::NodeId id) const {
-        const ir::Node& node = program_[id];
-        const auto* select = std::get_if<ir::Select>(&node.form);
-        const auto of = [&](ir::NodeId value) -> const ir::Properties& {
-            return properties_[value.index];
-        };
-        if (select &&
-            ir::is_lazy(program_, *select, of(select->then_value), of(select->else_value)))
-            return true;
-        return std::ranges::any_of(ir::operands_of(node),
-                                   [&](ir::NodeId operand) { return jumps(operand); });
+        return ir::any_node_of(program_, id, [&](ir::NodeId each) {
+            const auto* select = std::get_if<ir::Select>(&program_[each].form);
+            return select && ir::is_lazy(program_, *select, properties_[select->then_value.index],
+                                         properties_[select->else_value.index]);
+        });
     }
     // Registers wait for elements that this step has just stored one by one.
     bool reads_new_values(ir::NodeId id) const {
-        const ir::Node& node = program_[id];
-        if (const auto buffer = ir::buffer_read_by(node)) {
+        return ir::any_node_of(program_, id, [&](ir::NodeId each) {
+            const auto buffer = ir::buffer_read_by(program_[each]);
+            if (!buffer) return false;
             const ir::Storage storage = program_[*buffer].storage;
-            if (storage == ir::Storage::Scratch || storage == ir::Storage::Next) return true;
-        }
-        return std::ranges::any_of(ir::operands_of(node),
-                                   [&](ir::NodeId operand) { return reads_new_values(operand); });
+            return storage == ir::Storage::Scratch || storage == ir::Storage::Next;
+        });
     }
 
     const ir::Program& program_;

@@ -79,9 +79,9 @@ class PlaceReading {
     std::int64_t object_count() const { return ir::combinations(program_, nest_.variables); }
 
     bool reads(ir::NodeId id, ir::BufferId buffer) const {
-        return ir::buffer_read_by(program_[id]) == buffer ||
-               std::ranges::any_of(ir::operands_of(program_[id]),
-                                   [&](ir::NodeId operand) { return reads(operand, buffer); });
+        return ir::any_node_of(program_, id, [&](ir::NodeId each) {
+            return ir::buffer_read_by(program_[each]) == buffer;
+        });
     }
 
     // ------------------------------------------------------------------------------ finding

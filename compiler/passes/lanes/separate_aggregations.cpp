@@ -129,9 +129,9 @@ class Separation {
         return apply->op == Operator::Or && std::ranges::all_of(apply->operands, is_rare_too);
     }
     bool reads(ir::NodeId id, ir::BufferId buffer) const {
-        return ir::buffer_read_by(program_[id]) == buffer ||
-               std::ranges::any_of(ir::operands_of(program_[id]),
-                                   [&](ir::NodeId operand) { return reads(operand, buffer); });
+        return ir::any_node_of(program_, id, [&](ir::NodeId each) {
+            return ir::buffer_read_by(program_[each]) == buffer;
+        });
     }
     // Where chance decides whether a branch is taken, or goes on in it, jumps are mispredicted.
     bool may_fill_then(const ir::Select& select) const {

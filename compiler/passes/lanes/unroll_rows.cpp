@@ -65,9 +65,9 @@ class Unrolling {
 
     // It draws or may fault at a site, which belongs to one node.
     bool has_place(ir::NodeId id) const {
-        return ir::place_of(program_[id]) ||
-               std::ranges::any_of(ir::operands_of(program_[id]),
-                                   [&](ir::NodeId operand) { return has_place(operand); });
+        return ir::any_node_of(program_, id, [&](ir::NodeId each) {
+            return ir::place_of(program_[each]).has_value();
+        });
     }
 
     // The cost of the sums over rows that are evaluated in any case.
