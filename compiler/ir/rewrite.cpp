@@ -189,6 +189,17 @@ NodeId replace_in(Builder& builder, NodeId id, std::map<NodeId, NodeId>& known, 
     return known[id] = builder.rebuild(node);
 }
 
+std::map<NodeId, NodeId> combination(Builder& builder, std::span<const VariableId> variables,
+                                     std::int64_t number) {
+    std::map<NodeId, NodeId> values;
+    for (auto each = variables.rbegin(); each != variables.rend(); ++each) {
+        const std::int64_t count = builder.program()[*each].size;
+        values[builder.index(*each)] = builder.constant(number % count);
+        number /= count;
+    }
+    return values;
+}
+
 NodeId joined(Builder& builder, Operator op, std::span<const NodeId> parts) {
     if (parts.empty()) return builder.constant(op == Operator::And);
     NodeId all = parts.front();

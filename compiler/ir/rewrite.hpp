@@ -5,6 +5,7 @@
 #include "ir/builder.hpp"
 #include "ir/ir.hpp"
 
+#include <cstdint>
 #include <functional>
 #include <map>
 #include <optional>
@@ -25,6 +26,9 @@ NodeId replace_in(Builder& builder, NodeId id, std::map<NodeId, NodeId>& known);
 // with replacements in its operands. So the outermost nodes with a replacement are replaced.
 using Find = std::function<std::optional<NodeId>(NodeId)>;
 NodeId replace_in(Builder& builder, NodeId id, std::map<NodeId, NodeId>& known, const Find& find);
+// The variables, as keys, and their values in the combination of that row-major number.
+std::map<NodeId, NodeId> combination(Builder& builder, std::span<const VariableId> variables,
+                                     std::int64_t number);
 // All parts joined by And or Or, from the first to the last; what changes neither where there are
 // no parts. The reverse of parts_of (analysis.hpp).
 NodeId joined(Builder& builder, Operator op, std::span<const NodeId> parts);

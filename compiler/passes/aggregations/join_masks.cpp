@@ -302,13 +302,7 @@ class Joining {
         const std::int64_t size = ir::combinations(program_, image.sources);
         ir::NodeId joined = builder_.constant(std::int64_t{0});
         for (std::int64_t row = 0; row < ir::combinations(program_, image.rows); ++row) {
-            std::map<ir::NodeId, ir::NodeId> known;
-            std::int64_t rest = row;
-            for (auto each = image.rows.rbegin(); each != image.rows.rend(); ++each) {
-                const std::int64_t count = program_[*each].size;
-                known[builder_.index(*each)] = builder_.constant(rest % count);
-                rest /= count;
-            }
+            std::map<ir::NodeId, ir::NodeId> known = ir::combination(builder_, image.rows, row);
             const std::uint64_t ones = ~std::uint64_t{0} >> (most_elements - size);
             const ir::NodeId own = builder_.apply(
                 Operator::BitAnd,

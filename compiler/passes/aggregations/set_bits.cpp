@@ -165,13 +165,7 @@ class BitSetting {
     ir::NodeId united(ir::NodeId term, const std::vector<ir::VariableId>& variables) {
         ir::NodeId bits = none();
         for (std::int64_t i = 0; i < ir::combinations(program_, variables); ++i) {
-            std::map<ir::NodeId, ir::NodeId> known;
-            std::int64_t rest = i;
-            for (auto each = variables.rbegin(); each != variables.rend(); ++each) {
-                const std::int64_t count = program_[*each].size;
-                known[builder_.index(*each)] = builder_.constant(rest % count);
-                rest /= count;
-            }
+            std::map<ir::NodeId, ir::NodeId> known = ir::combination(builder_, variables, i);
             bits = either(bits, ir::replace_in(builder_, term, known));
         }
         return bits;
