@@ -30,7 +30,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from bench import Results, bench, geometric_mean
-from document import ROOT, machine_text, markdown_table, write_section
+from document import ROOT, machine_text, markdown_table, parts_around, write_section
 
 sys.path.append(str(ROOT / "tests/conformance"))
 
@@ -193,8 +193,7 @@ def not_run_of(line: str) -> NotRun:
 
 def with_kept_lines(new: list[Comparison | NotRun], jax_version: str) -> list[Comparison | NotRun]:
     """What the document says of other instances, and the new entries, by name."""
-    lines = (ROOT / "docs/results/benchmarks.md").read_text().split("<!-- begin of jax by problem -->")[1]
-    lines = lines.split("<!-- end of")[0].splitlines()
+    lines = parts_around("jax by problem")[2].splitlines()
     rows = [line for line in lines if line.startswith("|")][2:]
     kept = [comparison_of(row, jax_version) for row in rows]
     kept += [not_run_of(line) for line in lines if line.startswith("* ")]
