@@ -56,10 +56,9 @@ struct Epidemic : RunsToTheHorizon {
     template <class L>
     static void load(Actions<L>& actions, const std::byte* records) {
         const auto* const values = reinterpret_cast<const double*>(records);
-        typename L::Int rows;
+        const typename L::Int rows = row_starts<L>(record_size / sizeof(double));
         std::uint64_t closes = 0;
         for (int lane = 0; lane < L::width; ++lane) {
-            rows.set(lane, lane * std::int64_t{record_size / sizeof(double)});
             const std::byte* const record = records + static_cast<std::size_t>(lane) * record_size;
             closes |= std::to_integer<std::uint64_t>(record[record_size - sizeof(double)]) << lane;
         }

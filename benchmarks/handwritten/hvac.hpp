@@ -61,9 +61,7 @@ struct Hvac : RunsToTheHorizon {
     template <class L>
     static void load(Actions<L>& actions, const std::byte* records) {
         const auto* const values = reinterpret_cast<const double*>(records);
-        typename L::Int rows;
-        for (int lane = 0; lane < L::width; ++lane)
-            rows.set(lane, lane * std::int64_t{zones + heaters});
+        const typename L::Int rows = row_starts<L>(zones + heaters);
         for (std::size_t z = 0; z < zones; ++z) actions.fan[z] = gather(values + z, rows);
         for (std::size_t h = 0; h < heaters; ++h)
             actions.heat[h] = gather(values + zones + h, rows);

@@ -41,8 +41,7 @@ struct Intruders : RunsToTheHorizon {
     template <class L>
     static void load(Actions<L>& actions, const std::byte* records) {
         const auto* const values = reinterpret_cast<const std::int64_t*>(records);
-        typename L::Int rows;
-        for (int lane = 0; lane < L::width; ++lane) rows.set(lane, lane * std::int64_t{cameras});
+        const typename L::Int rows = row_starts<L>(cameras);
         for (std::size_t c = 0; c < cameras; ++c)
             actions.direction[c] = gather_integers(values + c, rows);
     }

@@ -66,9 +66,7 @@ struct MarsRover : RunsToTheHorizon {
     template <class L>
     static void load(Actions<L>& actions, const std::byte* records) {
         const auto* const values = reinterpret_cast<const double*>(records);
-        typename L::Int rows;
-        for (int lane = 0; lane < L::width; ++lane)
-            rows.set(lane, lane * static_cast<std::int64_t>(record_size));
+        const typename L::Int rows = row_starts<L>(record_size);
         for (std::size_t d = 0; d < rovers; ++d) {
             actions.power_x[d] = gather(values + d, rows);
             actions.power_y[d] = gather(values + rovers + d, rows);

@@ -40,8 +40,7 @@ struct PowerGen : RunsToTheHorizon {
     template <class L>
     static void load(Actions<L>& actions, const std::byte* records) {
         const auto* const values = reinterpret_cast<const double*>(records);
-        typename L::Int rows;
-        for (int lane = 0; lane < L::width; ++lane) rows.set(lane, lane * std::int64_t{plants});
+        const typename L::Int rows = row_starts<L>(plants);
         for (std::size_t p = 0; p < plants; ++p) actions.wanted[p] = gather(values + p, rows);
     }
 

@@ -49,6 +49,15 @@ rddl::Lanes<T, n> gather_integers(const T* table, const rddl::Lanes<std::int64_t
     return values;
 }
 
+// Where the row of each lane begins, in an array of rows of so many elements.
+template <class L>
+typename L::Int row_starts(std::size_t elements) {
+    typename L::Int starts;
+    for (int lane = 0; lane < L::width; ++lane)
+        starts.set(lane, lane * static_cast<std::int64_t>(elements));
+    return starts;
+}
+
 inline double lane_of(double value, std::int64_t) {
     return value;
 }

@@ -42,8 +42,7 @@ struct Reservoir : RunsToTheHorizon {
     template <class L>
     static void load(Actions<L>& actions, const std::byte* records) {
         const auto* const values = reinterpret_cast<const double*>(records);
-        typename L::Int rows;
-        for (int lane = 0; lane < L::width; ++lane) rows.set(lane, lane * std::int64_t{count});
+        const typename L::Int rows = row_starts<L>(count);
         for (std::size_t r = 0; r < count; ++r) actions.release[r] = gather(values + r, rows);
     }
 

@@ -46,9 +46,7 @@ struct SupplyChain : RunsToTheHorizon {
     template <class L>
     static void load(Actions<L>& actions, const std::byte* records) {
         const auto* const values = reinterpret_cast<const std::int64_t*>(records);
-        typename L::Int rows;
-        for (int lane = 0; lane < L::width; ++lane)
-            rows.set(lane, lane * std::int64_t{warehouses + 1});
+        const typename L::Int rows = row_starts<L>(warehouses + 1);
         actions.produce = gather_integers(values, rows);
         for (std::size_t w = 0; w < warehouses; ++w)
             actions.ship[w] = gather_integers(values + 1 + w, rows);

@@ -78,9 +78,7 @@ struct Zombies : RunsToTheHorizon {
     template <class L>
     static void load(Actions<L>& actions, const std::byte* records) {
         const auto* const values = reinterpret_cast<const double*>(records);
-        typename L::Int rows;
-        for (int lane = 0; lane < L::width; ++lane)
-            rows.set(lane, lane * static_cast<std::int64_t>(record_size));
+        const typename L::Int rows = row_starts<L>(record_size);
         for (std::size_t p = 0; p < persons; ++p) {
             actions.x[p] = gather(values + p, rows);
             actions.y[p] = gather(values + persons + p, rows);
