@@ -122,46 +122,47 @@ struct Lanes {
     RDDL_INLINE void set(int lane, T value) { part[lane / part_width][lane % part_width] = value; }
 
     friend RDDL_INLINE Lanes operator+(Lanes a, Lanes b) {
-        return each([](Vector x, Vector y) { return x + y; }, a, b);
+        return each([](Vector x, Vector y) RDDL_INLINE_LAMBDA { return x + y; }, a, b);
     }
     friend RDDL_INLINE Lanes operator-(Lanes a, Lanes b) {
-        return each([](Vector x, Vector y) { return x - y; }, a, b);
+        return each([](Vector x, Vector y) RDDL_INLINE_LAMBDA { return x - y; }, a, b);
     }
     friend RDDL_INLINE Lanes operator*(Lanes a, Lanes b) {
-        return each([](Vector x, Vector y) { return x * y; }, a, b);
+        return each([](Vector x, Vector y) RDDL_INLINE_LAMBDA { return x * y; }, a, b);
     }
     friend RDDL_INLINE Lanes operator/(Lanes a, Lanes b) {
-        return each([](Vector x, Vector y) { return x / y; }, a, b);
+        return each([](Vector x, Vector y) RDDL_INLINE_LAMBDA { return x / y; }, a, b);
     }
     friend RDDL_INLINE Lanes operator-(Lanes a) {
-        return each([](Vector x) { return -x; }, a);
+        return each([](Vector x) RDDL_INLINE_LAMBDA { return -x; }, a);
     }
     Lanes& operator+=(Lanes other) { return *this = *this + other; }
 
     friend RDDL_INLINE Lanes operator&(Lanes a, Lanes b) {
-        return each([](Vector x, Vector y) { return x & y; }, a, b);
+        return each([](Vector x, Vector y) RDDL_INLINE_LAMBDA { return x & y; }, a, b);
     }
     friend RDDL_INLINE Lanes operator|(Lanes a, Lanes b) {
-        return each([](Vector x, Vector y) { return x | y; }, a, b);
+        return each([](Vector x, Vector y) RDDL_INLINE_LAMBDA { return x | y; }, a, b);
     }
     friend RDDL_INLINE Lanes operator^(Lanes a, Lanes b) {
-        return each([](Vector x, Vector y) { return x ^ y; }, a, b);
+        return each([](Vector x, Vector y) RDDL_INLINE_LAMBDA { return x ^ y; }, a, b);
     }
     friend RDDL_INLINE Lanes operator>>(Lanes a, int count) {
-        return each([count](Vector x) { return x >> count; }, a);
+        return each([count](Vector x) RDDL_INLINE_LAMBDA { return x >> count; }, a);
     }
     friend RDDL_INLINE Lanes operator<<(Lanes a, int count) {
-        return each([count](Vector x) { return x << count; }, a);
+        return each([count](Vector x) RDDL_INLINE_LAMBDA { return x << count; }, a);
     }
 
     friend RDDL_INLINE Mask<n> operator<(Lanes a, Lanes b) {
-        return mask([](Vector x, Vector y) { return simd::less(x, y); }, a, b);
+        return mask([](Vector x, Vector y) RDDL_INLINE_LAMBDA { return simd::less(x, y); }, a, b);
     }
     friend RDDL_INLINE Mask<n> operator<=(Lanes a, Lanes b) {
-        return mask([](Vector x, Vector y) { return simd::less_equal(x, y); }, a, b);
+        return mask([](Vector x, Vector y) RDDL_INLINE_LAMBDA { return simd::less_equal(x, y); }, a,
+                    b);
     }
     friend RDDL_INLINE Mask<n> operator==(Lanes a, Lanes b) {
-        return mask([](Vector x, Vector y) { return simd::equal(x, y); }, a, b);
+        return mask([](Vector x, Vector y) RDDL_INLINE_LAMBDA { return simd::equal(x, y); }, a, b);
     }
     friend RDDL_INLINE Mask<n> operator>(Lanes a, Lanes b) { return b < a; }
     friend RDDL_INLINE Mask<n> operator>=(Lanes a, Lanes b) { return b <= a; }
@@ -176,7 +177,7 @@ struct Lanes {
         return result;
     }
     static RDDL_INLINE Lanes filled(T value) {
-        return each([value] { return value - Vector{}; });  // keeps -0.0
+        return each([value]() RDDL_INLINE_LAMBDA { return value - Vector{}; });  // keeps -0.0
     }
     template <class Operation, std::size_t... p, class... Operands>
     static RDDL_INLINE Lanes each_part(Operation operation, std::index_sequence<p...>,

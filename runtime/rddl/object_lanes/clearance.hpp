@@ -33,7 +33,7 @@ template <const auto& clearances, int n>
 RDDL_INLINE Lanes<std::int64_t, n> clearance_of(const Lanes<std::int64_t, n>& cell) {
     constexpr std::int64_t count = Nested<std::remove_cvref_t<decltype(clearances)>>::count;
     return Lanes<std::int64_t, n>::each(
-        [](simd::Ints place) {
+        [](simd::Ints place) RDDL_INLINE_LAMBDA {
             const auto bytes = simd::gather_bytes<count>(&first_part<0>(clearances), place);
             return (simd::Ints)(bytes & 0xFF);
         },

@@ -81,22 +81,23 @@ struct ManyBools {
     }
 
     friend RDDL_INLINE ManyBools operator&&(const ManyBools& a, const ManyBools& b) {
-        return each([](Vector x, Vector y) { return x & y; }, a, b);
+        return each([](Vector x, Vector y) RDDL_INLINE_LAMBDA { return x & y; }, a, b);
     }
     friend RDDL_INLINE ManyBools operator||(const ManyBools& a, const ManyBools& b) {
-        return each([](Vector x, Vector y) { return x | y; }, a, b);
+        return each([](Vector x, Vector y) RDDL_INLINE_LAMBDA { return x | y; }, a, b);
     }
     friend RDDL_INLINE ManyBools operator!(const ManyBools& a) { return a != ManyBools(true); }
     friend RDDL_INLINE ManyBools operator==(const ManyBools& a, const ManyBools& b) {
         return !(a != b);
     }
     friend RDDL_INLINE ManyBools operator!=(const ManyBools& a, const ManyBools& b) {
-        return each([](Vector x, Vector y) { return x ^ y; }, a, b);
+        return each([](Vector x, Vector y) RDDL_INLINE_LAMBDA { return x ^ y; }, a, b);
     }
     static RDDL_INLINE ManyBools select(const ManyBools& condition, const ManyBools& a,
                                         const ManyBools& b) {
-        return each([](Vector c, Vector x, Vector y) { return (x & c) | (y & ~c); }, condition, a,
-                    b);
+        return each([](Vector c, Vector x, Vector y)
+                        RDDL_INLINE_LAMBDA { return (x & c) | (y & ~c); },
+                    condition, a, b);
     }
 
   private:
@@ -104,7 +105,7 @@ struct ManyBools {
         return part + 1 < part_count ? part_width : n - part * part_width;
     }
     static RDDL_INLINE ManyBools filled(Element everywhere) {
-        return each([everywhere] { return everywhere - Vector{}; });
+        return each([everywhere]() RDDL_INLINE_LAMBDA { return everywhere - Vector{}; });
     }
 };
 
@@ -112,8 +113,8 @@ struct ManyBools {
 template <int n>
 RDDL_INLINE ManyBools<bool, n> is_true(const ManyBools<bool, n>& given) {
     using Vector = typename ManyBools<bool, n>::Vector;
-    return ManyBools<bool, n>::each([](Vector x) { return simd::reinterpret<Vector>(x != 0) & 1; },
-                                    given);
+    return ManyBools<bool, n>::each(
+        [](Vector x) RDDL_INLINE_LAMBDA { return simd::reinterpret<Vector>(x != 0) & 1; }, given);
 }
 template <int lanes, int n>
 RDDL_INLINE ManyBools<Mask<lanes>, n> is_true(const ManyBools<Mask<lanes>, n>& given) {

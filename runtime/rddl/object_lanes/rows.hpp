@@ -121,7 +121,7 @@ RDDL_INLINE auto at_line(const SomeObjects<n>& x, const Count& count) {
     const auto steps = reals<R>(Lanes<std::int64_t, n>(count));
     const auto value = at(of_objects.first, x) + at(of_objects.rise, x) * steps;
     // Takes the minimum as std::min does, for Line: without the care for nan that minimum has.
-    return Lanes<R, n>::each([](auto a, auto b) { return b < a ? b : a; }, value,
+    return Lanes<R, n>::each([](auto a, auto b) RDDL_INLINE_LAMBDA { return b < a ? b : a; }, value,
                              at(of_objects.last, x));
 }
 template <const auto& rows, const auto&... kinds, int n, class Count>
@@ -130,7 +130,7 @@ RDDL_INLINE auto at_near_line(const SomeObjects<n>& x, const Count& count) {
     constexpr int bits = Differences<std::tuple_size_v<Row>>::bits;
     using Int = Lanes<std::int64_t, n>;
     const Int difference = Int::each(
-        [](auto word, auto place) {
+        [](auto word, auto place) RDDL_INLINE_LAMBDA {
             const auto first = (decltype(place))word << place * bits;
             return (decltype(word))first >> (64 - bits);
         },

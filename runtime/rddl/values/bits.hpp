@@ -186,7 +186,8 @@ constexpr std::int64_t count_ones(std::int64_t a) {
 }
 template <int n>
 RDDL_INLINE Lanes<std::int64_t, n> count_ones(const Lanes<std::int64_t, n>& a) {
-    return Lanes<std::int64_t, n>::each([](simd::Ints bits) { return simd::count_ones(bits); }, a);
+    return Lanes<std::int64_t, n>::each(
+        [](simd::Ints bits) RDDL_INLINE_LAMBDA { return simd::count_ones(bits); }, a);
 }
 
 // The bits that one mask at least has, of the masks in a row of a table that are chosen by bits:

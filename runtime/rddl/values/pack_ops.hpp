@@ -111,7 +111,7 @@ RDDL_INLINE auto parts_of(Mask<n> mask, std::index_sequence<p...>) {
 template <class T, int n>
 RDDL_INLINE Lanes<T, n> choose(Mask<n> condition, const Lanes<T, n>& a, const Lanes<T, n>& b) {
     return Lanes<T, n>::each(
-        [](auto bits, auto x, auto y) { return simd::blend(bits, x, y); },
+        [](auto bits, auto x, auto y) RDDL_INLINE_LAMBDA { return simd::blend(bits, x, y); },
         parts_of<T>(condition, std::make_index_sequence<Lanes<T, n>::part_count>()), a, b);
 }
 
@@ -165,7 +165,8 @@ namespace detail {
 template <class To, class From, int n>
 RDDL_INLINE Lanes<To, n> same_bits(const Lanes<From, n>& a) {
     return Lanes<To, n>::each(
-        [](auto x) { return std::bit_cast<typename Lanes<To, n>::Vector>(x); }, a);
+        [](auto x) RDDL_INLINE_LAMBDA { return std::bit_cast<typename Lanes<To, n>::Vector>(x); },
+        a);
 }
 
 // Converts between lanes of 32 and of 64 bits.
@@ -210,11 +211,12 @@ RDDL_INLINE Lanes<double, n> to_real(Mask<n> a) {
 }
 template <int n>
 RDDL_INLINE Lanes<double, n> to_real(const Lanes<std::int64_t, n>& a) {
-    return Lanes<double, n>::each([](auto x) { return simd::to_reals(x); }, a);
+    return Lanes<double, n>::each([](auto x) RDDL_INLINE_LAMBDA { return simd::to_reals(x); }, a);
 }
 template <int n>
 RDDL_INLINE Lanes<std::int64_t, n> truncate_to_int(const Lanes<double, n>& a) {
-    return Lanes<std::int64_t, n>::each([](auto x) { return simd::truncate(x); }, a);
+    return Lanes<std::int64_t, n>::each([](auto x) RDDL_INLINE_LAMBDA { return simd::truncate(x); },
+                                        a);
 }
 template <int n>
 RDDL_INLINE Lanes<std::int64_t, n> truncate_to_int(const Lanes<float, n>& a) {
@@ -264,12 +266,13 @@ template <int n>
 RDDL_INLINE Lanes<std::uint64_t, n> multiply_low_halves(const Lanes<std::uint64_t, n>& a,
                                                         const Lanes<std::uint64_t, n>& b) {
     return Lanes<std::uint64_t, n>::each(
-        [](auto x, auto y) { return simd::multiply_low_halves(x, y); }, a, b);
+        [](auto x, auto y) RDDL_INLINE_LAMBDA { return simd::multiply_low_halves(x, y); }, a, b);
 }
 
 template <int n>
 RDDL_INLINE Lanes<std::uint64_t, n> upper_halves(const Lanes<std::uint64_t, n>& a) {
-    return Lanes<std::uint64_t, n>::each([](auto x) { return simd::upper_halves(x); }, a);
+    return Lanes<std::uint64_t, n>::each(
+        [](auto x) RDDL_INLINE_LAMBDA { return simd::upper_halves(x); }, a);
 }
 constexpr std::uint64_t join_lower_halves(std::uint64_t low, std::uint64_t high) {
     return (low & 0xFFFFFFFF) | high << 32;
@@ -278,7 +281,7 @@ template <int n>
 RDDL_INLINE Lanes<std::uint64_t, n> join_lower_halves(const Lanes<std::uint64_t, n>& low,
                                                       const Lanes<std::uint64_t, n>& high) {
     return Lanes<std::uint64_t, n>::each(
-        [](auto x, auto y) { return simd::join_lower_halves(x, y); }, low, high);
+        [](auto x, auto y) RDDL_INLINE_LAMBDA { return simd::join_lower_halves(x, y); }, low, high);
 }
 
 // --------------------------------------------------------------------------- int arithmetic
@@ -357,10 +360,14 @@ requires SomePack<A, B> RDDL_INLINE auto minimum(const A& a, const B& b) {
     const Result x(a), y(b);
     if constexpr (std::is_floating_point_v<A>)
         if (!is_zero_or_nan(a))
-            return Result::each([](auto p, auto q) { return p < q ? p : q; }, x, y);
+            return Result::each([](auto p, auto q) RDDL_INLINE_LAMBDA { return p < q ? p : q; }, x,
+                                y);
     if constexpr (std::is_floating_point_v<B>)
-        if (!is_nan(b)) return Result::each([](auto p, auto q) { return q < p ? q : p; }, x, y);
-    return Result::each([](auto p, auto q) { return ((q < p) | (q != q)) ? q : p; }, x, y);
+        if (!is_nan(b))
+            return Result::each([](auto p, auto q) RDDL_INLINE_LAMBDA { return q < p ? q : p; }, x,
+                                y);
+    return Result::each(
+        [](auto p, auto q) RDDL_INLINE_LAMBDA { return ((q < p) | (q != q)) ? q : p; }, x, y);
 }
 template <class A, class B>
 requires SomePack<A, B> RDDL_INLINE auto maximum(const A& a, const B& b) {
@@ -368,17 +375,21 @@ requires SomePack<A, B> RDDL_INLINE auto maximum(const A& a, const B& b) {
     const Result x(a), y(b);
     if constexpr (std::is_floating_point_v<A>)
         if (!is_zero_or_nan(a))
-            return Result::each([](auto p, auto q) { return p > q ? p : q; }, x, y);
+            return Result::each([](auto p, auto q) RDDL_INLINE_LAMBDA { return p > q ? p : q; }, x,
+                                y);
     if constexpr (std::is_floating_point_v<B>)
-        if (!is_nan(b)) return Result::each([](auto p, auto q) { return q > p ? q : p; }, x, y);
-    return Result::each([](auto p, auto q) { return ((q > p) | (q != q)) ? q : p; }, x, y);
+        if (!is_nan(b))
+            return Result::each([](auto p, auto q) RDDL_INLINE_LAMBDA { return q > p ? q : p; }, x,
+                                y);
+    return Result::each(
+        [](auto p, auto q) RDDL_INLINE_LAMBDA { return ((q > p) | (q != q)) ? q : p; }, x, y);
 }
 
 // ----------------------------------------------------------------------------- real functions
 
 template <std::floating_point R, int n>
 RDDL_INLINE Lanes<R, n> sqrt(const Lanes<R, n>& a) {
-    return Lanes<R, n>::each([](auto x) { return simd::square_root(x); }, a);
+    return Lanes<R, n>::each([](auto x) RDDL_INLINE_LAMBDA { return simd::square_root(x); }, a);
 }
 
 // Functions of two operands, one of which is the same in all lanes.
@@ -408,15 +419,18 @@ Lanes<R, n> power(std::type_identity_t<R> base, const Lanes<R, n>& exponent) {
 
 template <int n>
 RDDL_INLINE Lanes<std::int64_t, n> round(const Lanes<double, n>& a) {
-    return truncate_to_int(Lanes<double, n>::each([](auto x) { return simd::nearest(x); }, a));
+    return truncate_to_int(
+        Lanes<double, n>::each([](auto x) RDDL_INLINE_LAMBDA { return simd::nearest(x); }, a));
 }
 template <int n>
 RDDL_INLINE Lanes<std::int64_t, n> floor(const Lanes<double, n>& a) {
-    return truncate_to_int(Lanes<double, n>::each([](auto x) { return simd::floor(x); }, a));
+    return truncate_to_int(
+        Lanes<double, n>::each([](auto x) RDDL_INLINE_LAMBDA { return simd::floor(x); }, a));
 }
 template <int n>
 RDDL_INLINE Lanes<std::int64_t, n> ceil(const Lanes<double, n>& a) {
-    return truncate_to_int(Lanes<double, n>::each([](auto x) { return simd::ceil(x); }, a));
+    return truncate_to_int(
+        Lanes<double, n>::each([](auto x) RDDL_INLINE_LAMBDA { return simd::ceil(x); }, a));
 }
 
 template <int n>
@@ -510,10 +524,13 @@ Mask<n> gather(const bool* elements, const Lanes<std::int64_t, n>& indices) {
     if constexpr (count <= 64) {
         const std::uint64_t bits = simd::bits_of_bytes(elements, count);
         return lowest_bits(Lanes<std::int64_t, n>::each(
-            [bits](Ints place) { return (Ints)((Words{} + bits) >> (Words)place); }, indices));
+            [bits](Ints place)
+                RDDL_INLINE_LAMBDA { return (Ints)((Words{} + bits) >> (Words)place); },
+            indices));
     } else {
         return lowest_bits(Lanes<std::int64_t, n>::each(
-            [elements](Ints place) { return (Ints)simd::gather_bytes<count>(elements, place); },
+            [elements](Ints place)
+                RDDL_INLINE_LAMBDA { return (Ints)simd::gather_bytes<count>(elements, place); },
             indices));
     }
 }
@@ -526,7 +543,7 @@ RDDL_INLINE Mask<n> gather_from_column(const bool* elements,
     for (std::int64_t row = 0; row < rows; ++row)
         bits |= std::uint64_t{elements[row * distance]} << row;
     return lowest_bits(Lanes<std::int64_t, n>::each(
-        [bits](simd::Ints place) {
+        [bits](simd::Ints place) RDDL_INLINE_LAMBDA {
             return (simd::Ints)((simd::Words{} + bits) >> (simd::Words)place);
         },
         indices));
@@ -535,13 +552,16 @@ template <std::int64_t count, int n>
 RDDL_INLINE auto gather(const std::int64_t* elements, const Lanes<std::int64_t, n>& indices) {
     const auto* const reals = reinterpret_cast<const double*>(elements);
     return Lanes<std::int64_t, n>::each(
-        [reals](auto x) { return simd::reinterpret<simd::Ints>(simd::look_up<count>(reals, x)); },
+        [reals](auto x) RDDL_INLINE_LAMBDA {
+            return simd::reinterpret<simd::Ints>(simd::look_up<count>(reals, x));
+        },
         indices);
 }
 template <std::int64_t count, int n>
 RDDL_INLINE auto gather(const double* elements, const Lanes<std::int64_t, n>& indices) {
-    return Lanes<double, n>::each([elements](auto x) { return simd::look_up<count>(elements, x); },
-                                  indices);
+    return Lanes<double, n>::each(
+        [elements](auto x) RDDL_INLINE_LAMBDA { return simd::look_up<count>(elements, x); },
+        indices);
 }
 template <std::int64_t, int n>
 auto gather(const float* elements, const Lanes<std::int64_t, n>& indices) {
@@ -561,8 +581,8 @@ auto gather(const Lanes<T, n>* elements, const Lanes<std::int64_t, n>& indices) 
     if constexpr (std::is_same_v<T, float>)
         return gather<count * n>(values, places);
     else
-        return Lanes<T, n>::each([values](auto part) { return simd::gather(values, part); },
-                                 places);
+        return Lanes<T, n>::each(
+            [values](auto part) RDDL_INLINE_LAMBDA { return simd::gather(values, part); }, places);
 }
 template <std::int64_t count, int n>
 Mask<n> gather(const Mask<n>* elements, const Lanes<std::int64_t, n>& indices) {
