@@ -23,12 +23,19 @@ def values_of(problem: str, instance: str) -> dict:
     return env.sampler.init_values
 
 
+def braced(values: np.ndarray, text) -> str:
+    """The text of each value; each row has braces of its own."""
+    return "{" + ", ".join(braced(row, text) for row in values) + "}" if values.ndim else text(values)
+
+
+def sizes(values: np.ndarray) -> str:
+    return "".join(f"[{size}]" for size in values.shape)
+
+
 def array(name: str, values) -> str:
     """Reals, row after row."""
     values = np.asarray(values, dtype=float)
-    sizes = "".join(f"[{size}]" for size in values.shape)
-    numbers = ", ".join(float(value).hex() for value in values.ravel())
-    return f"inline constexpr double {name}{sizes} = {{{numbers}}};"
+    return f"inline constexpr double {name}{sizes(values)} = {braced(values, lambda value: float(value).hex())};"
 
 
 def bit_sets(name: str, rows) -> str:
@@ -81,8 +88,7 @@ def number(name: str, value, kind: str = "double") -> str:
 def integers(name: str, values, kind: str = "std::int64_t") -> str:
     """Integers or bools, row after row."""
     values = np.asarray(values, dtype=int)
-    sizes = "".join(f"[{size}]" for size in values.shape)
-    return f"inline constexpr {kind} {name}{sizes} = {{{', '.join(map(str, values.ravel()))}}};"
+    return f"inline constexpr {kind} {name}{sizes(values)} = {braced(values, str)};"
 
 
 def the_only(bools) -> int:
@@ -160,7 +166,7 @@ def triangle_tireworld() -> list[str]:
     values = values_of("TriangleTireworld_MDP_ippc2014", "10")
     spares = ", ".join(str(int(spare)) for spare in values["spare-in"])
     return [
-        f"inline constexpr std::array<bool, {values['spare-in'].size}> spares = {{{spares}}};",
+        f"inline constexpr std::array<bool, {values['spare-in'].size}> spares = {{{{{spares}}}}};",
         integers("road", values["road"], "bool"),
         number("start", the_only(values["vehicle-at"]), "std::size_t"),
         number("goal", the_only(values["goal-location"]), "std::size_t"),
@@ -187,9 +193,10 @@ def traffic() -> list[str]:
     assert not np.any(values["light-signal1"]) and not np.any(values["light-signal2"])
 
     def sets(name: str, cells) -> str:
-        words = [sum(1 << int(k) for k in np.flatnonzero(part)) for part in np.reshape(cells, (-1, 36))]
-        size = f"[{len(words) // 2}][2]" if len(words) > 2 else "[2]"
-        return f"inline constexpr std::uint64_t {name}{size} = {{{', '.join(map(hex, words))}}};"
+        words = np.array([sum(1 << int(k) for k in np.flatnonzero(part)) for part in np.reshape(cells, (-1, 36))])
+        if len(words) > 2:
+            words = words.reshape(-1, 2)
+        return f"inline constexpr std::uint64_t {name}{sizes(words)} = {braced(words, hex)};"
 
     return [
         sets("occupied", values["occupied"]),

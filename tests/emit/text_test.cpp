@@ -143,6 +143,21 @@ TEST(EmittedText, SaysWhichDrawsAreThoseOfTwoObjects) {
     EXPECT_EQ(count(with_chances(3), "PlaceAmong"), 0u);
 }
 
+// Two of 17 at most. The others keep their bools, and draw nothing.
+TEST(EmittedText, ComputesTheObjectsThatAnActionChooses) {
+    std::string text = problem(17);
+    const std::string cpf = "on(?o) ^ Bernoulli(0.5) | a(?o)";
+    text.replace(text.find(cpf), cpf.size(),
+                 "if (a(?o)) then Bernoulli(if (on(?o)) then W(?o) / 20 else 0.5) else on(?o)");
+    EXPECT_EQ(count(emitted(text), "rddl::for_chosen_objects<"), 0u);
+    text.replace(text.find("horizon"), 0, "max-nondef-actions = 2; ");
+    EXPECT_EQ(
+        count(emitted(text),
+              "        rddl::for_chosen_objects<o_count>(\n"
+              "            context, action.a, state.on, next.on, [&](auto& several, auto o) {\n"),
+        1u);
+}
+
 TEST(EmittedText, RoundsRealsWithoutInts) {
     std::string text = problem(2);
     const std::string reward = "sum_{?o : o} [W(?o) * on(?o)]";

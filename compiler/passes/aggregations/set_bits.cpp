@@ -43,7 +43,8 @@ class BitSetting {
         const auto* found = ir::only_statement<ir::Store>(ir::innermost_body(*outermost));
         if (!found) return;
         const ir::Store store = *found;
-        const bool may_be = program_[store.target].scalar == ir::Scalar::Bool &&
+        const ir::Buffer& target = program_[store.target];
+        const bool may_be = target.scalar == ir::Scalar::Bool && target.is_computed_in_step() &&
                             ir::are_variables_of(program_, store.indices, {rows, nullptr}) &&
                             ir::is_droppable(builder_.properties(store.value)) &&
                             ir::is_known_before(program_, store.value, {store.target});
@@ -109,9 +110,11 @@ class BitSetting {
 
     std::optional<ir::NodeId> word_of(const ir::Apply& apply) {
         if (!is_one_of(apply.op, {Operator::And, Operator::Or, Operator::Not})) return std::nullopt;
-        const auto a = word_of(apply.operands.front()), b = word_of(apply.operands.back());
-        if (!a || !b) return std::nullopt;
+        const auto a = word_of(apply.operands.front());
+        if (!a) return std::nullopt;
         if (apply.op == Operator::Not) return inverted(*a);
+        const auto b = word_of(apply.operands.back());
+        if (!b) return std::nullopt;
         return apply.op == Operator::And ? both(*a, *b) : either(*a, *b);
     }
 

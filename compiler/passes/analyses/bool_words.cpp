@@ -12,12 +12,20 @@ constexpr std::int64_t few_objects = 16;
 
 // Depends on which object it is, or on something that a statement of the loop names.
 bool differs(const ir::Program& program, ir::NodeId id, const ir::Nest& nest) {
-    const ir::Node& node = program[id];
-    if (std::holds_alternative<ir::Local>(node.form)) return true;
-    if (const auto* index = std::get_if<ir::Index>(&node.form))
-        return std::ranges::find(nest.variables, index->variable) != nest.variables.end();
-    return std::ranges::any_of(ir::operands_of(node),
-                               [&](ir::NodeId operand) { return differs(program, operand, nest); });
+    return ir::any_node_of(program, id, [&](ir::NodeId each) {
+        const auto* index = std::get_if<ir::Index>(&program[each].form);
+        return std::holds_alternative<ir::Local>(program[each].form) ||
+               (index &&
+                std::ranges::find(nest.variables, index->variable) != nest.variables.end());
+    });
+}
+
+// Is the same for all objects, and in all environments: a register holds elements of one row.
+bool is_row_index(const ir::Program& program, ir::NodeId id, const ir::Nest& nest) {
+    return !differs(program, id, nest) && !ir::any_node_of(program, id, [&](ir::NodeId each) {
+        const auto buffer = ir::buffer_read_by(program[each]);
+        return buffer && program[*buffer].storage != ir::Storage::Constant;
+    });
 }
 
 // Is known to be a probability: a constant, or the element of a table of constants that has the
@@ -56,8 +64,9 @@ bool is_of_bools(const ir::Program& program, ir::NodeId id, const ir::Nest& nest
         [&](const ir::Load& load) {
             const auto outer = load.indices.size() - nest.variables.size();
             return ir::ends_with(program, load.indices, nest) &&
-                   std::all_of(load.indices.begin(), load.indices.begin() + outer,
-                               [&](ir::NodeId index) { return !differs(program, index, nest); });
+                   std::all_of(
+                       load.indices.begin(), load.indices.begin() + outer,
+                       [&](ir::NodeId index) { return is_row_index(program, index, nest); });
         },
         [](const ir::Element&) { return true; }, [](const ir::Local&) { return true; },
         [&](const ir::Apply& apply) { return are_of_bools(apply.operands); },

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <optional>
-#include <set>
 #include <span>
 #include <utility>
 #include <vector>
@@ -41,17 +40,10 @@ std::vector<bool> parts_of_conditions(const ir::Program& program) {
 // change in some loop around the condition, and is computed before that loop.
 bool has_loop(const ir::Builder& builder, ir::NodeId id,
               const std::vector<ir::VariableId>& variables) {
-    std::set<ir::NodeId> seen;
-    const auto has = [&](const auto& self, ir::NodeId each) -> bool {
-        if (!seen.insert(each).second) return false;
-        const ir::Node& node = builder.program()[each];
-        const auto& free = builder.properties(each).free_variables;
-        if (std::holds_alternative<ir::Reduce>(node.form) && std::ranges::includes(free, variables))
-            return true;
-        return std::ranges::any_of(ir::operands_of(node),
-                                   [&](ir::NodeId operand) { return self(self, operand); });
-    };
-    return has(has, id);
+    return ir::any_node_of(builder.program(), id, [&](ir::NodeId each) {
+        return std::holds_alternative<ir::Reduce>(builder.program()[each].form) &&
+               std::ranges::includes(builder.properties(each).free_variables, variables);
+    });
 }
 
 // A conjunction whose draws wait for the action; nothing if it has none.

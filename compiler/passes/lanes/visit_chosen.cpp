@@ -49,18 +49,15 @@ class Choosing {
 
     // Draws of one object alone exist of this distribution.
     bool draws_bernoulli_alone(ir::NodeId id) {
-        if (!builder_.properties(id).random) return false;
-        bool others = false;
-        const auto look = [&](const auto& self, ir::NodeId at) -> void {
-            const ir::Node& node = program_[at];
-            const auto* sample = std::get_if<ir::Sample>(&node.form);
-            others |= std::holds_alternative<ir::Reduce>(node.form) ||
-                      std::holds_alternative<ir::Interval>(node.form) ||
-                      (sample && sample->distribution != Distribution::Bernoulli);
-            for (const ir::NodeId operand : ir::operands_of(node)) self(self, operand);
-        };
-        look(look, id);
-        return !others;
+        return builder_.properties(id).random &&
+               !ir::any_node_of(program_, id, [&](ir::NodeId each) {
+                   const ir::Node& node = program_[each];
+                   const auto* sample = std::get_if<ir::Sample>(&node.form);
+                   const bool draws_otherwise =
+                       ir::place_of(node) &&
+                       !(sample && sample->distribution == Distribution::Bernoulli);
+                   return draws_otherwise || std::holds_alternative<ir::Reduce>(node.form);
+               });
     }
 
     // Tables of the action of which few bools are true.

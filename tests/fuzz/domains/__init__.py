@@ -1,8 +1,8 @@
 """Whole little domains, composed of families: docs/fuzzing.md."""
 
 from domains import chances, control, flows, grids, machines, markets, networks, places, pointers, queues, vehicles, zeros
-from domains.draft import ACTION, STATE, Draft, of, over
-from rddl_problem import UNSURE, Expr, Fluent, Policy, Problem
+from domains.draft import ACTION, OBSERVATION, STATE, Draft, of, over
+from rddl_problem import Expr, Fluent, Policy, Problem
 
 FAMILIES = (grids, places, queues, pointers, machines, networks, control, flows, markets, chances, vehicles, zeros)
 
@@ -33,19 +33,16 @@ def add_observations(draft: Draft) -> None:
     for state in draft.rng.sample(states, min(len(states), draft.pick([1, 2]))):
         variables = tuple(f"?v{i}" for i in range(len(state.parameters)))
         seen = draft.at(state, *variables, prime=True)
+        scope = dict(zip(variables, state.parameters))
         if len(variables) == 1 and state.range in ("bool", "int", "real") and draft.chance(0.4):
-            variables, parameters, seen = (), (), over("sum", "?v0", state.parameters[0], seen)
-        else:
-            parameters = state.parameters
-        fluent = Fluent(draft.fresh(f"seen-{state.name}"), "observ-fluent", seen.kind, parameters, None, {}, 10, UNSURE)
-        draft.problem.fluents.append(fluent)
-        draft.problem.cpfs[fluent.name] = (variables, seen)
+            scope, seen = {}, over("sum", "?v0", state.parameters[0], seen)
+        draft.observe(f"seen-{state.name}", scope, seen)
 
 
 def add_policy(draft: Draft) -> None:
     """Acts by what it sees."""
     policy = Policy()
-    seen = "observ-fluent" if any(f.role == "observ-fluent" for f in draft.problem.fluents) else STATE
+    seen = OBSERVATION if any(f.role == OBSERVATION for f in draft.problem.fluents) else STATE
     for action in [f for f in draft.problem.fluents if f.role == ACTION]:
         variables = {f"?v{i}": p for i, p in enumerate(action.parameters)}
         policy.cpfs[action.name] = (tuple(variables), action_of_policy(draft, action, variables, seen))

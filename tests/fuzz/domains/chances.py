@@ -63,9 +63,20 @@ def lessons(draft: Draft) -> None:
     known, chance = draft.declare("known", STATE, "bool", lesson), draft.declare("CHANCE", CONSTANT, "real", lesson)
     here = draft.at(known, "?l")
     drawn = draft.coin(draft.pick([draft.at(chance, "?l"), real("(if (%s) then 0.9 else %s)", here, draft.at(chance, "?l"))]))
+    if draft.flavour.draws and draft.chance(0.3):
+        drawn = guided(draft, lesson)
     draft.define(known, ("?l",), boolean(draft.pick(["(if (%s) then %s else %s)", "((%s ^ %s) | %s)"]), draft.at(learn, "?l"), drawn, here))
     draft.problem.max_nondef_actions = draft.pick(["1", "1", "2"])
     draft.earn(over("sum", "?l", lesson, draft.at(known, "?l")))
+
+
+def guided(draft: Draft, lesson: str):
+    """Whether the guide of a lesson comes, drawn among all by weights that change."""
+    guide = draft.objects("guide")
+    of_lesson, skill = draft.declare("OF", CONSTANT, guide, lesson), draft.declare("skill", STATE, "real", lesson)
+    draft.define(skill, ("?l",), draft.bounded(real("(%s * -0.5)", draft.at(skill, "?l"))))
+    comes = of(guide, f"(UnnormDiscrete_{{?m : {guide}}} [(min[9.0, abs[%s]] + 0.25)])", draft.at(skill, "?l"))
+    return boolean("(%s == %s)", comes, draft.at(of_lesson, "?l"))
 
 
 def arrivals(draft: Draft) -> None:

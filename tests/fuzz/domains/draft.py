@@ -10,6 +10,7 @@ FEW = (1, 1, 2, 3, 4, 5)
 SOME = (7, 8, 9, 15, 16, 17)
 MANY = (31, 32, 33, 63, 64, 65)  # around words and registers
 STATE, ACTION, INTERM, CONSTANT = "state-fluent", "action-fluent", "interm-fluent", "non-fluent"
+OBSERVATION = "observ-fluent"
 
 
 def of(kind: str, form: str, *parts) -> Expr:
@@ -103,6 +104,12 @@ class Draft(Tables):
         fluent = self.declare(stem, INTERM, body.kind, *variables.values())
         self.define(fluent, tuple(variables), body)
         return fluent
+
+    def observe(self, stem: str, variables: dict[str, str], body: Expr) -> None:
+        """An observation of these variables and their types; it may read what the step has computed."""
+        name = self.fresh(stem)
+        self.problem.fluents.append(Fluent(name, OBSERVATION, body.kind, tuple(variables.values()), None, {}, 10, UNSURE))
+        self.problem.cpfs[name] = (tuple(variables), body)
 
     # --------------------------------------------------------------------------- expressions
 

@@ -16,7 +16,7 @@ def add(draft: Draft) -> None:
     grown = real("(%s + (?n == %s) * %s)", draft.at(worth, "?n"), draft.at(head), gain)
     shared = real("(%s - %s)", draft.at(worth, "?n"), draft.at(worth, draft.at(after, "?n")))
     draft.define(worth, ("?n",), draft.bounded(draft.pick([grown, shared])))
-    for part in draft.rng.sample([carriers, sums_at_head, loops, walkers], draft.pick([1, 2, 3])):
+    for part in draft.rng.sample([carriers, sums_at_head, loops, walkers, near_head], draft.pick([1, 2, 3])):
         part(draft, node, after, head, worth)
     draft.earn(draft.revealed(draft.at(worth, chain(draft, node, after, head))))
 
@@ -91,7 +91,19 @@ def walkers(draft: Draft, node: str, after, head, worth) -> None:
     if draft.chance(0.5):
         row = boolean("(if (%s) then %s else %s)", draft.some_bool({}), draft.some_bool(scope), row)
     draft.define(seen, variables, row)
+    if draft.chance(0.5):
+        found = over("exists", "?w", walker, boolean("(%s == ?n)", draft.at(stands, "?w", prime=True)))
+        draft.observe("found", {"?n": node}, boolean(draft.pick(["%s", "~%s"]), found))
     total = draft.at(seen, *variables)
     for variable, type_name in reversed(scope.items()):
         total = over("sum", variable, type_name, total)
     draft.earn(total)
+
+
+def near_head(draft: Draft, node: str, after, head, worth) -> None:
+    """Counts in the row that the state chooses."""
+    near = draft.declare("near", draft.pick([STATE, CONSTANT]), "bool", node, node)
+    if near.role == STATE:
+        draft.define(near, ("?n", "?m"), draft.pick([draft.at(near, "?m", "?n"), draft.some_bool({"?n": node, "?m": node})]))
+    other = draft.pick([draft.at(near, draft.at(after, "?m"), "?m"), draft.some_bool({"?m": node})])
+    draft.earn(over("sum", "?m", node, boolean(draft.pick(["(%s ^ %s)", "(%s | %s)"]), draft.at(near, draft.at(head), "?m"), other)))

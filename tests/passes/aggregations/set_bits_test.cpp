@@ -57,6 +57,22 @@ TEST(SetBits, CombinesWords) {
               "bit_and(bit_xor(" + rolled_bits + ", 1048575), bits(state.seen, 0))\n");
 }
 
+// Conditions in each other take no more time than their text has parts.
+TEST(SetBits, InvertsDeeplyNestedWords) {
+    std::string seen = rolled;
+    for (int depth = 0; depth < 40; ++depth) seen = "~(seen(?o) ^ " + seen + ")";
+    EXPECT_TRUE(with_bits(seen).starts_with("bit_xor(bit_and(bits(state.seen, 0), bit_xor("));
+}
+
+TEST(SetBits, LeavesObservations) {
+    Problem problem = dice("seen(?o)");
+    problem.pvariables += "\nshown(obj) : { observ-fluent, bool };";
+    problem.cpfs += "\nshown(?o) = (exists_{?d : pair} [face(?d) == ?o]);";
+    passes::Report report;
+    valid(passes::set_bits(grounded_with_many(problem), report));
+    EXPECT_TRUE(report.empty());
+}
+
 TEST(SetBits, LeavesOthers) {
     for (const char* const body :
          {"roll(?d) ^ (count(?d) == 3)",             // the same for all elements

@@ -42,6 +42,7 @@ TEST(VisitChosen, LeavesOthers) {
           in_loops("if (take(?o)) then Bernoulli(skill(?o)) else (passed(?o) | open(?o))"),
           in_loops("if (take(?o)) then passed(?o) else Bernoulli(skill(?o))"),
           in_loops("if (take(?o)) then Normal(0, skill(?o)) > 0 else passed(?o)"),
+          in_loops("if (take(?o)) then (Discrete_{?p : obj} [skill(?o)]) == ?o else passed(?o)"),
           in_loops("if (take(?o)) then skill(?o) > 0.3 else passed(?o)"),
           in_loops("if (take(?o)) then Bernoulli(0.5) else passed(?o)")}) {
         passes::Report report;
