@@ -42,6 +42,7 @@ std::size_t affordable(std::size_t scenarios, std::optional<std::int64_t> steps)
 
 Cem::Cem(const PlannerContext& context, const CemOptions& options)
     : simulator_(context.simulator),
+      loops_(plan_loops()),
       options_(options),
       batch_horizon_(context.horizon),
       space_(solvers::action_space(simulator_)),
@@ -83,6 +84,7 @@ Cem::Cem(const PlannerContext& context, const CemOptions& options)
     values_.resize(population_);
     errors_.resize(population_);
     order_.resize(population_);
+    others_.resize(population_);
     firsts_.resize(population_ * records_.record_size());
     streams_.resize(lanes_);
     row_.resize(static_cast<std::size_t>(space_.column_count));
@@ -217,10 +219,9 @@ std::int64_t Cem::play(const DecisionPoint& point, std::span<const std::uint32_t
 // All draws of luck of a plan begin in the same state, so that they have the same first action.
 void Cem::note_first_actions(std::span<const std::uint32_t> plans) {
     const std::size_t size = records_.record_size();
-    const std::size_t count = plans.empty() ? population_ : plans.size();
-    for (std::size_t k = 0; k < count; ++k)
-        std::copy_n(actions_.data() + k * size, size,
-                    firsts_.data() + (plans.empty() ? k : plans[k]) * size);
+    if (plans.empty()) std::copy_n(actions_.data(), firsts_.size(), firsts_.data());
+    for (std::size_t k = 0; k < plans.size(); ++k)
+        std::copy_n(actions_.data() + k * size, size, firsts_.data() + plans[k] * size);
 }
 
 const std::byte* Cem::first_action(std::size_t plan) const {

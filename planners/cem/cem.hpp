@@ -8,6 +8,7 @@
 #include "planners/cem/novelty_search.hpp"
 #include "planners/cem/plan_actions.hpp"
 #include "planners/cem/plan_distribution.hpp"
+#include "planners/cem/plan_loops.hpp"
 #include "planners/cem/plan_noise.hpp"
 #include "planners/cem/population.hpp"
 #include "planners/planner/episode_memories.hpp"
@@ -50,10 +51,6 @@ class Cem : public Planner {
         // Populations, one after the other, of which nothing was better than doing nothing.
         std::int64_t fruitless = 0;
     };
-    struct Ranked {
-        double value;
-        std::size_t plan;
-    };
     struct Choice {
         std::size_t plan;
         double value, error;
@@ -77,6 +74,7 @@ class Cem : public Planner {
     void draw_streams(RandomStream& stream, std::size_t plans);
     void rank();
     void sort_best();
+    void sort_first(std::size_t count);
     std::size_t elites() const;
     bool is_above_median(double value) const;
     void rank_kept(const Memory& memory);
@@ -99,6 +97,7 @@ class Cem : public Planner {
     void move_on(Memory& memory, std::int64_t left);
 
     const rddl_simulator& simulator_;
+    const PlanLoops& loops_;
     CemOptions options_;
     std::int64_t batch_horizon_;  // as in PlannerContext
     solvers::ActionSpace space_;
@@ -125,15 +124,16 @@ class Cem : public Planner {
     PlanActions plan_actions_;
     Plan plan_;
     std::vector<Origin> origins_;
-    std::vector<double> values_, errors_;
+    Aligned<double> values_;
+    std::vector<double> errors_;
     double noop_value_ = 0;
-    std::vector<std::size_t> order_;  // the best first
-    std::vector<Ranked> ranked_;
+    std::vector<std::size_t> order_;  // the best first, then the others
+    std::vector<std::size_t> others_;
     std::vector<std::byte> firsts_;  // action records of each plan's first step
     // The lanes.
     std::vector<std::uint64_t> streams_;
     std::vector<float> row_;  // of one action
-    std::vector<std::byte> actions_;
+    Aligned<std::byte> actions_;
     std::vector<std::uint8_t> by_policy_;
     // Buffers of a fit, and of a comparison.
     std::vector<std::size_t> fitted_;

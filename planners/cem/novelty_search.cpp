@@ -132,8 +132,8 @@ void NoveltySearch::find_rare(RandomStream& stream) {
 void NoveltySearch::write_best(Plan& best) const {
     std::size_t lane = best_->lane;
     for (auto t = static_cast<std::size_t>(best_->steps); t-- > 0;) {
-        for (std::size_t r = 0; r < reals_; ++r)
-            best.numbers[t * reals_ + r] = population_.numbers(t, r)[lane];
+        std::copy_n(population_.numbers(t) + lane * reals_, reals_,
+                    best.numbers.begin() + static_cast<std::ptrdiff_t>(t * reals_));
         for (std::size_t i = 0; i < indices_; ++i)
             best.indices[t * indices_ + i] = population_.indices(t, i)[lane];
         if (t > 0) lane = from_[(t - 1) * ran_.size() + lane];

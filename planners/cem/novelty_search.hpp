@@ -66,7 +66,8 @@ class NoveltySearch {
     std::vector<std::uint8_t> ran_;    // before the step
     std::vector<std::uint64_t> streams_, cell_of_;
     std::vector<std::int64_t> steps_;
-    std::vector<std::byte> states_, actions_;
+    std::vector<std::byte> states_;
+    Aligned<std::byte> actions_;
     std::vector<std::uint32_t> rare_;     // one lane of each cell, with the greatest value
     std::vector<std::int32_t> in_table_;  // a hash table of cells: a place in rare_; -1: empty
 };

@@ -11,18 +11,14 @@ using solvers::RealHead;
 
 namespace {
 
-RealScale scale_of(const RealHead& head, const solvers::ActionSpace& space,
-                   const solvers::ActionRecords& records) {
-    return {head.range,
-            head.rounds,
-            head.lower,
-            head.upper,
-            head.scale,
-            head.centre,
-            head.least(),
-            head.most(),
-            space.defaults[static_cast<std::size_t>(head.column)],
-            records.default_value(head.column)};
+RealScales scales_of(const solvers::ActionSpace& space, const solvers::ActionRecords& records) {
+    std::vector<RealScale> scales;
+    for (const RealHead& head : space.reals)
+        scales.push_back({head.range, head.rounds, head.lower, head.upper, head.scale, head.centre,
+                          head.least(), head.most(),
+                          space.defaults[static_cast<std::size_t>(head.column)],
+                          records.default_value(head.column)});
+    return RealScales(scales);
 }
 
 // The inverse of the loops' bent().
@@ -51,11 +47,11 @@ PlanActions::PlanActions(const solvers::ActionSpace& space, const solvers::Actio
     : loops_(plan_loops()),
       space_(space),
       records_(records),
+      scales_(scales_of(space, records)),
       blank_(most_plans * records.record_size()),
-      numbers_(most_plans),
-      values_(most_plans * std::max<std::size_t>(1, space.reals.size())),
-      writes_all_(space.max_sub_actions == 0 &&
-                  space.reals.size() * sizeof(double) == records.record_size()) {
+      numbers_(most_plans * space.reals.size()),
+      values_(most_plans * space.reals.size()),
+      values_are_records_(are_records(space)) {
     for (std::size_t p = 0; p < most_plans; ++p)
         std::ranges::copy(records.default_record(),
                           blank_.begin() + static_cast<std::ptrdiff_t>(p * records.record_size()));
@@ -65,33 +61,50 @@ void PlanActions::write(const Population& population, std::size_t step,
                         std::span<const std::uint32_t> plans, std::byte* to) {
     plans_ = plans;
     count_ = plans.empty() ? population.plans() : plans.size();
-    if (!writes_all_) std::memcpy(to, blank_.data(), count_ * records_.record_size());
+    const std::size_t reals = space_.reals.size();
+    const auto write_values = [&](double* values) {
+        loops_.real_values(scales_, numbers_of(population, step), count_ * reals, values);
+    };
+    if (values_are_records_) return write_values(reinterpret_cast<double*>(to));
+    std::memcpy(to, blank_.data(), count_ * records_.record_size());
+    if (reals > 0) write_values(values_.data());
     if (space_.max_sub_actions > 0) return write_sub_actions(population, step, to);
-    for (std::size_t r = 0; r < space_.reals.size(); ++r)
-        write_real(space_.reals[r], numbers_of(population, step, r), to);
+    for (std::size_t r = 0; r < reals; ++r) write_real(r, to);
     for (std::size_t h = 0; h < space_.categories.size(); ++h)
         write_category(space_.categories[h], population.indices(step, h), to);
 }
 
+// Whether a row of values is a record: all of it are reals, in their order.
+bool PlanActions::are_records(const solvers::ActionSpace& space) const {
+    if (space.max_sub_actions > 0 || space.reals.empty() ||
+        space.reals.size() * sizeof(double) != records_.record_size())
+        return false;
+    for (std::size_t r = 0; r < space.reals.size(); ++r) {
+        const auto& at = records_.entry(space.reals[r].column);
+        if (at.scalar != RDDL_REAL || at.offset != r * sizeof(double)) return false;
+    }
+    return true;
+}
+
 // The numbers of the plans that are written.
-const float* PlanActions::numbers_of(const Population& population, std::size_t step,
-                                     std::size_t real) {
-    const float* const all = population.numbers(step, real);
+const float* PlanActions::numbers_of(const Population& population, std::size_t step) {
+    const float* const all = population.numbers(step);
+    const std::size_t reals = population.reals();
     if (plans_.empty()) return all;
-    for (std::size_t k = 0; k < count_; ++k) numbers_[k] = all[plans_[k]];
+    for (std::size_t k = 0; k < count_; ++k)
+        std::copy_n(all + plans_[k] * reals, reals, numbers_.data() + k * reals);
     return numbers_.data();
 }
 
-void PlanActions::write_real(const RealHead& head, const float* numbers, std::byte* to) {
-    loops_.real_values(scale_of(head, space_, records_), numbers, count_, values_.data());
-    const auto at = records_.entry(head.column);
-    const std::size_t size = records_.record_size(), count = count_;
-    const double* const values = values_.data();
+void PlanActions::write_real(std::size_t real, std::byte* to) {
+    const auto at = records_.entry(space_.reals[real].column);
+    const std::size_t size = records_.record_size(), count = count_, reals = space_.reals.size();
+    const double* const values = values_.data() + real;
     if (at.scalar == RDDL_REAL)  // apart, since it is most of the work where it occurs
         for (std::size_t k = 0; k < count; ++k)
-            std::memcpy(to + k * size + at.offset, values + k, sizeof values[k]);
+            std::memcpy(to + k * size + at.offset, values + k * reals, sizeof *values);
     else
-        for (std::size_t k = 0; k < count; ++k) at.set(values[k], to + k * size);
+        for (std::size_t k = 0; k < count; ++k) at.set(values[k * reals], to + k * size);
 }
 
 void PlanActions::write_category(const CategoryHead& head, const std::int32_t* indices,
@@ -109,10 +122,7 @@ void PlanActions::write_category(const CategoryHead& head, const std::int32_t* i
 }
 
 void PlanActions::write_sub_actions(const Population& population, std::size_t step, std::byte* to) {
-    const std::size_t size = records_.record_size(), row = blank_.size() / size;
-    for (std::size_t r = 0; r < space_.reals.size(); ++r)
-        loops_.real_values(scale_of(space_.reals[r], space_, records_),
-                           numbers_of(population, step, r), count_, values_.data() + r * row);
+    const std::size_t size = records_.record_size(), reals = space_.reals.size();
     const auto positions = static_cast<std::size_t>(space_.max_sub_actions);
     for (std::size_t p = 0; p < positions; ++p) {
         const std::int32_t* const indices = population.indices(step, p);
@@ -123,7 +133,7 @@ void PlanActions::write_sub_actions(const Population& population, std::size_t st
             any = true;
             const solvers::Choice& choice = space_.choices[static_cast<std::size_t>(index)];
             const double value = choice.real >= 0
-                                     ? values_[static_cast<std::size_t>(choice.real) * row + k]
+                                     ? values_[k * reals + static_cast<std::size_t>(choice.real)]
                                      : static_cast<double>(choice.value);
             records_.entry(choice.column).set(value, to + k * size);
         }

@@ -27,8 +27,9 @@ class PlanActions {
                std::byte* to);
 
   private:
-    const float* numbers_of(const Population& population, std::size_t step, std::size_t real);
-    void write_real(const solvers::RealHead& head, const float* numbers, std::byte* to);
+    const float* numbers_of(const Population& population, std::size_t step);
+    bool are_records(const solvers::ActionSpace& space) const;
+    void write_real(std::size_t real, std::byte* to);
     void write_category(const solvers::CategoryHead& head, const std::int32_t* indices,
                         std::byte* to);
     void write_sub_actions(const Population& population, std::size_t step, std::byte* to);
@@ -37,10 +38,11 @@ class PlanActions {
     const PlanLoops& loops_;
     const solvers::ActionSpace& space_;
     const solvers::ActionRecords& records_;
+    RealScales scales_;
     std::vector<std::byte> blank_;  // default actions
-    std::vector<float> numbers_;    // of the plans that are asked for
-    std::vector<double> values_;    // a row for each real head
-    bool writes_all_;               // all bytes of a record are those of reals
+    Aligned<float> numbers_;        // of the plans that are asked for, a row for each
+    Aligned<double> values_;        // the same, unless rows of values are records
+    bool values_are_records_;
     std::span<const std::uint32_t> plans_;
     std::size_t count_ = 0;
 };

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <limits>
 
 namespace rddlc::planners {
 
@@ -36,6 +37,14 @@ Distribution::Distribution(const ActionSpace& space, Spread spread)
       fitted_(logits()),
       defaults_(indices()),
       usual_(indices()) {
+    constexpr float no_limit = std::numeric_limits<float>::infinity();
+    for (std::size_t k = 0; k < repetitions * reals(); ++k)
+        limits_.push_back(space.reals[k % reals()].range == RealHead::Range::Bounded ? 1
+                                                                                     : no_limit);
+    repeated_means_.resize(limits_.size());
+    repeated_deviations_.resize(limits_.size());
+    sums_.resize(reals());
+    squares_.resize(reals());
     std::vector<float> numbers(reals());
     solvers::read_action(space_, space_.defaults.data(), numbers.data(), defaults_.data());
     if (space.max_sub_actions > 0 && logits() > 1) {
@@ -116,12 +125,7 @@ void Distribution::draw(RandomStream& stream, PlanNoise& noise, Population& popu
     noise.restart(stream);
     for (std::size_t t = 0; t < population.steps(); ++t) {
         noise.next_step(stream);
-        for (std::size_t r = 0; r < reals(); ++r) {
-            const float mean = means_[t * reals() + r], deviation = deviations_[t * reals() + r];
-            loops_.scale_numbers(mean, deviation, space_.reals[r].range == RealHead::Range::Bounded,
-                                 noise.widths(r), noise.numbers(r), plans,
-                                 population.numbers(t, r));
-        }
+        if (reals() > 0) draw_reals(t, noise, population);
         if (indices() == 0) continue;
         write_usual(t, usual_.data());
         for (std::size_t h = 0; h < space_.categories.size(); ++h)
@@ -133,6 +137,14 @@ void Distribution::draw(RandomStream& stream, PlanNoise& noise, Population& popu
                        population.indices(t, p));
         if (positions > 1) leave_out_repetitions(t, population);
     }
+}
+
+void Distribution::draw_reals(std::size_t step, const PlanNoise& noise, Population& population) {
+    repeat(means_.data() + step * reals(), reals(), repeated_means_.data());
+    repeat(deviations_.data() + step * reals(), reals(), repeated_deviations_.data());
+    loops_.scale_numbers(
+        {limits_.size(), repeated_means_.data(), repeated_deviations_.data(), limits_.data()},
+        noise.widths(), noise.numbers(), population.plans() * reals(), population.numbers(step));
 }
 
 void Distribution::draw_index(std::size_t step, int first_logit, int count, std::int32_t usual,
@@ -215,22 +227,19 @@ void Distribution::fit(const Population& population, std::span<const std::size_t
 void Distribution::fit_reals(const Population& population, std::size_t step,
                              std::span<const std::size_t> plans, std::span<const double> weights,
                              double memory, bool keeps_deviations) {
+    float *const means = means_.data() + step * reals(), *const deviations =
+                                                             deviations_.data() + step * reals();
+    loops_.add_moments(
+        {population.numbers(step), reals(), plans.size(), plans.data(), weights.data()}, means,
+        sums_.data(), squares_.data());
     for (std::size_t r = 0; r < reals(); ++r) {
-        const float* const numbers = population.numbers(step, r);
-        double mean = 0, square = 0;
-        for (std::size_t c = 0; c < plans.size(); ++c)
-            mean += weights[c] * static_cast<double>(numbers[plans[c]]);
-        for (std::size_t c = 0; c < plans.size(); ++c) {
-            const double difference = static_cast<double>(numbers[plans[c]]) - mean;
-            square += weights[c] * difference * difference;
-        }
-        const std::size_t k = step * reals() + r;
-        means_[k] =
-            static_cast<float>(memory * static_cast<double>(means_[k]) + (1 - memory) * mean);
+        // The sum of the weights is 1.
+        const double square = std::max(squares_[r] - sums_[r] * sums_[r], 0.0);
+        means[r] = static_cast<float>(static_cast<double>(means[r]) + (1 - memory) * sums_[r]);
         if (keeps_deviations) continue;
         const double deviation =
-            memory * static_cast<double>(deviations_[k]) + (1 - memory) * std::sqrt(square);
-        deviations_[k] = static_cast<float>(std::max(deviation, spread_.least * spread_.first));
+            memory * static_cast<double>(deviations[r]) + (1 - memory) * std::sqrt(square);
+        deviations[r] = static_cast<float>(std::max(deviation, spread_.least * spread_.first));
     }
 }
 

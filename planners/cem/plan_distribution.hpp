@@ -49,6 +49,7 @@ class Distribution {
   private:
     void begin_steps(std::int64_t from);
     void widen();
+    void draw_reals(std::size_t step, const PlanNoise& noise, Population& population);
     void draw_index(std::size_t step, int first_logit, int count, std::int32_t usual,
                     const PlanNoise& noise, const std::int32_t* ranks, std::size_t plans,
                     std::int32_t* chosen);
@@ -71,6 +72,9 @@ class Distribution {
     std::int64_t steps_ = 0;
     std::vector<float> first_means_, first_probabilities_;  // of a step in a new episode
     std::vector<float> means_, deviations_;                 // rows of reals
+    Aligned<float> limits_;                                 // of a row, repeated
+    Aligned<float> repeated_means_, repeated_deviations_;   // of one row
+    std::vector<double> sums_, squares_;                    // of one row, in a fit
     std::vector<float> probabilities_;                      // rows of logits
     std::vector<float> fitted_;                             // room for a row of logits
     std::vector<std::int32_t> thresholds_;                  // of ranks, between values

@@ -10,35 +10,9 @@ inline std::uint32_t noise_bits(std::uint32_t key, std::size_t counter) {
     return bits ^ (bits >> 16);
 }
 
-// The sum of three numbers of 0 .. 1023 has the mean 1534.5 and the deviation 512.
-inline float bell_of(std::uint32_t bits) {
-    const std::uint32_t sum = (bits & 1023) + ((bits >> 10) & 1023) + ((bits >> 20) & 1023);
-    return (static_cast<float>(static_cast<std::int32_t>(sum)) - 1534.5f) * (1.0f / 512);
-}
-
-inline void next_numbers(const NumberNoise& noise, std::size_t plans, float* numbers) {
-    const float *const old = noise.old, *const fresh = noise.fresh;
-    const std::uint32_t key = noise.key;
-    for (std::size_t p = 0; p < plans; ++p)
-        numbers[p] = old[p] * numbers[p] + fresh[p] * bell_of(noise_bits(key, p));
-}
-
-// 2^x for x <= 0, within 2e-7 of its value. Polynomials are sums of short ones, which do not wait
-// for each other.
-inline float power_of_two(float x) {
-    x = x > -126 ? x : -126;
-    const auto whole = static_cast<std::int32_t>(x);
-    const float r = x - static_cast<float>(whole), square = r * r;  // r in (-1, 0]
-    const float low = (1.0f + 0.69314712f * r) + (0.24022487f + 0.05549252f * r) * square;
-    const float high = (0.0095818322f + 0.0012765167f * r) + 0.00010944255f * square;
-    return (low + high * (square * square)) * std::bit_cast<float>((whole + 127) << 23);
-}
-
-inline void draw_widths(std::uint32_t key, std::size_t plans, float* widths) {
-    // Exponents are lowered by 7 and raised again, since power_of_two() takes none above 0.
-    constexpr float octaves = 1.5f * 1.44269504f, most_octaves = 7, scale = 128;
-    for (std::size_t p = 0; p < plans; ++p)
-        widths[p] = scale * power_of_two(octaves * bell_of(noise_bits(key, p)) - most_octaves);
+inline void next_numbers(const NumberNoise& noise, std::size_t count, float* __restrict numbers) {
+    const float *const old = noise.old, *const fresh = noise.fresh, *const drawn = noise.drawn;
+    for (std::size_t k = 0; k < count; ++k) numbers[k] = old[k] * numbers[k] + fresh[k] * drawn[k];
 }
 
 inline void next_ranks(const RankNoise& noise, std::size_t plans, std::int32_t* ranks) {
@@ -57,14 +31,28 @@ inline Real clamped(Real x, Real least, Real most) {
     return below > least ? below : least;
 }
 
-inline void scale_numbers(float mean, float deviation, bool is_bounded, const float* widths,
-                          const float* noise, std::size_t plans, float* numbers) {
-    if (is_bounded)
-        for (std::size_t p = 0; p < plans; ++p)
-            numbers[p] = clamped(mean + deviation * noise[p], -1.0f, 1.0f);
-    else
-        for (std::size_t p = 0; p < plans; ++p)
-            numbers[p] = mean + deviation * widths[p] * noise[p];
+// Calls body(first, n) for each period, and for what is left of one in the end.
+template <class Body>
+inline void for_each_period(std::size_t period, std::size_t count, Body body) {
+    for (std::size_t first = 0; first < count; first += period)
+        body(first, count - first < period ? count - first : period);
+}
+
+inline void scale_period(const NumberScales& scales, const float* widths, const float* noise,
+                         std::size_t count, float* __restrict numbers) {
+    const float *const means = scales.means, *const deviations = scales.deviations;
+    const float* const limits = scales.limits;
+    for (std::size_t k = 0; k < count; ++k) {
+        const float limit = limits[k], width = limit > 1 ? widths[k] : 1.0f;
+        numbers[k] = clamped(means[k] + deviations[k] * width * noise[k], -limit, limit);
+    }
+}
+
+inline void scale_numbers(const NumberScales& scales, const float* widths, const float* noise,
+                          std::size_t count, float* numbers) {
+    for_each_period(scales.period, count, [&](std::size_t first, std::size_t n) {
+        scale_period(scales, widths + first, noise + first, n, numbers + first);
+    });
 }
 
 inline void count_reached(const std::int32_t* thresholds, std::size_t count,
@@ -100,12 +88,14 @@ inline void keep_habits(const std::int32_t* habits, const std::int32_t* ranks, s
     for (std::size_t p = 0; p < plans; ++p) chosen[p] = ranks[p] < habits[p] ? usual : chosen[p];
 }
 
-// In place of softplus(x): 0, x, and between them the parabola that meets both with their slopes.
-// It differs by 0.076 at most, and unlike softplus it reaches the bound.
-inline float bent(float x) {
-    constexpr float from = half_bend;
-    const float within = clamped(x + from, 0.0f, 2 * from);
-    return within * within * (1 / (4 * from)) + ((x > from ? x : from) - from);
+// In place of softplus, values with one bound are 0, x, and between them the parabola that meets
+// both with their slopes. It differs by 0.076 at most, and unlike softplus it reaches the bound.
+// The values of `least_number` and `shift` are those of x beyond the parabola; where there is none,
+// twice_bend is 0.
+inline float bent(float x, float least_number, float shift, float twice_bend) {
+    const float within = clamped(x + half_bend, 0.0f, twice_bend);
+    return within * within * (1 / (4 * half_bend)) +
+           ((x > least_number ? x : least_number) + shift);
 }
 
 inline float rounded_whole(float x) {
@@ -115,67 +105,91 @@ inline double rounded_whole(double x) {
     return __builtin_nearbyint(x);
 }
 
-// Values before they are finished, in the precision of Number.
-template <class Number, class Finish>
-inline void finish_values(const RealScale& real, const float* numbers, std::size_t plans,
-                          double* values, Finish finished) {
-    const auto lower = static_cast<Number>(real.lower), upper = static_cast<Number>(real.upper);
-    const auto scale = static_cast<Number>(real.scale), centre = static_cast<Number>(real.centre);
-    const auto half_width = static_cast<Number>(0.5 * (real.upper - real.lower));
-    const auto make_values = [=](auto value_of) {
-        if (real.rounds)
-            for (std::size_t p = 0; p < plans; ++p)
-                values[p] = finished(rounded_whole(value_of(numbers[p])));
-        else
-            for (std::size_t p = 0; p < plans; ++p) values[p] = finished(value_of(numbers[p]));
-    };
-    using Range = solvers::RealHead::Range;
-    if (real.range == Range::Bounded)
-        make_values([=](float u) {
-            return lower + (static_cast<Number>(clamped(u, -1.0f, 1.0f)) + 1) * half_width;
-        });
-    else if (real.range == Range::AboveLower)
-        make_values([=](float u) { return lower + scale * static_cast<Number>(bent(u)); });
-    else if (real.range == Range::BelowUpper)
-        make_values([=](float u) { return upper - scale * static_cast<Number>(bent(u)); });
-    else
-        make_values([=](float u) { return centre + scale * static_cast<Number>(u); });
+// The values of a period, in the precision of Number until they are finished.
+template <class Number, bool any_rounds, class Finish>
+inline void finish_values(const RealScales& reals, const RealScales::Values<Number>& values_of,
+                          const float* numbers, std::size_t count, double* __restrict values,
+                          Finish finished) {
+    const Number *const base = values_of.base.data(), *const scale = values_of.scale.data();
+    const Number *const least = values_of.least.data(), *const most = values_of.most.data();
+    const float *const least_number = reals.least_number.data(), *const shift = reals.shift.data();
+    const float *const twice_bend = reals.twice_bend.data(), *const rounds = reals.rounds.data();
+    for (std::size_t k = 0; k < count; ++k) {
+        const float x = bent(numbers[k], least_number[k], shift[k], twice_bend[k]);
+        Number value = base[k] + scale[k] * static_cast<Number>(x);
+        if constexpr (any_rounds) value = rounds[k] > 0 ? rounded_whole(value) : value;
+        values[k] = finished(k, clamped(value, least[k], most[k]));
+    }
 }
 
-// Whether the bounds and the default are floats, which arithmetic of floats reaches.
-inline bool is_short(const RealScale& real) {
-    const auto is_float = [](double x) {
-        return static_cast<double>(static_cast<float>(x)) == x;
-    };
-    if (!is_float(real.lower) || !is_float(real.upper) || !is_float(real.exact_default))
-        return false;
-    if (real.range != solvers::RealHead::Range::Bounded) return true;
-    const auto half_width = static_cast<float>(0.5 * (real.upper - real.lower));
-    return static_cast<float>(real.lower) + 2 * half_width == static_cast<float>(real.upper);
-}
-
-inline void real_values(const RealScale& real, const float* numbers, std::size_t plans,
-                        double* values) {
-    constexpr double greatest = std::numeric_limits<float>::max();
-    const double least = clamped(real.least, -greatest, greatest);
-    const double most = clamped(real.most, -greatest, greatest);
-    if (is_short(real)) {
-        const auto short_least = static_cast<float>(least), short_most = static_cast<float>(most);
-        finish_values<float>(real, numbers, plans, values, [=](float value) {
-            return static_cast<double>(clamped(value, short_least, short_most));
-        });
+template <bool any_rounds>
+inline void values_of_period(const RealScales& reals, const float* numbers, std::size_t count,
+                             double* values) {
+    if (reals.is_short) {
+        finish_values<float, any_rounds>(
+            reals, reals.short_values, numbers, count, values,
+            [](std::size_t, float value) { return static_cast<double>(value); });
         return;
     }
-    const double lower = real.lower, upper = real.upper;
-    const float short_default = real.short_default;
-    const double exact_default = real.exact_default;
-    finish_values<double>(real, numbers, plans, values, [=](double value) {
-        const auto rounded = static_cast<float>(clamped(value, least, most));
-        // The float next to a bound may lie beyond it.
-        const double within = clamped(static_cast<double>(rounded), lower, upper);
-        return rounded == short_default ? exact_default : within;
+    const double *const lower = reals.lower.data(), *const upper = reals.upper.data();
+    const double* const exact_default = reals.exact_default.data();
+    const float* const short_default = reals.short_default.data();
+    finish_values<double, any_rounds>(
+        reals, reals.long_values, numbers, count, values, [=](std::size_t k, double value) {
+            const auto rounded = static_cast<float>(value);
+            // The float next to a bound may lie beyond it.
+            const double within = clamped(static_cast<double>(rounded), lower[k], upper[k]);
+            return rounded == short_default[k] ? exact_default[k] : within;
+        });
+}
+
+inline void real_values(const RealScales& reals, const float* numbers, std::size_t count,
+                        double* values) {
+    for_each_period(reals.period, count, [&](std::size_t first, std::size_t n) {
+        if (reals.any_rounds)
+            values_of_period<true>(reals, numbers + first, n, values + first);
+        else
+            values_of_period<false>(reals, numbers + first, n, values + first);
     });
 }
 
-inline constexpr PlanLoops loops{next_numbers,  draw_widths, next_ranks,  scale_numbers,
-                                 count_reached, stretch,     keep_habits, real_values};
+inline void add_moments(const Rows& rows, const float* centres, double* sums, double* squares) {
+    for (std::size_t first = 0; first < rows.reals; first += slack) {
+        const std::size_t width = rows.reals - first < slack ? rows.reals - first : slack;
+        double centre[slack]{}, sum[slack]{}, square[slack]{};
+        for (std::size_t k = 0; k < width; ++k) centre[k] = static_cast<double>(centres[first + k]);
+        for (std::size_t c = 0; c < rows.count; ++c) {
+            const float* const row = rows.first + rows.chosen[c] * rows.reals + first;
+            const double weight = rows.weights[c];
+            for (std::size_t k = 0; k < slack; ++k) {
+                const double x = static_cast<double>(row[k]) - centre[k];
+                sum[k] += weight * x;
+                square[k] += weight * x * x;
+            }
+        }
+        for (std::size_t k = 0; k < width; ++k) {
+            sums[first + k] = sum[k];
+            squares[first + k] = square[k];
+        }
+    }
+}
+
+inline std::size_t count_above(const double* values, std::size_t count, double limit) {
+    std::int64_t above = 0;
+    for (std::size_t k = 0; k < count; ++k) above += values[k] > limit ? 1 : 0;
+    return static_cast<std::size_t>(above);
+}
+
+inline void count_before(const double* values, std::size_t count, std::size_t* before) {
+    for (std::size_t i = 0; i < count; ++i) {
+        const double value = values[i];
+        std::int64_t sum = 0;
+        for (std::size_t k = 0; k < i; ++k) sum += values[k] >= value ? 1 : 0;
+        for (std::size_t k = i + 1; k < count; ++k) sum += values[k] > value ? 1 : 0;
+        before[i] = static_cast<std::size_t>(sum);
+    }
+}
+
+inline constexpr PlanLoops loops{next_numbers, next_ranks,  scale_numbers, count_reached,
+                                 stretch,      keep_habits, real_values,   add_moments,
+                                 count_above,  count_before};

@@ -1,9 +1,70 @@
 #include "planners/cem/plan_noise.hpp"
 
+#include <algorithm>
+#include <bit>
 #include <cmath>
+#include <utility>
 
 namespace rddlc::planners {
 namespace {
+
+// 32 bits, each of which depends on all of the counter's ("lowbias32" of Chris Wellons' hash
+// prospector, 2018).
+std::uint32_t noise_bits(std::uint32_t counter) {
+    std::uint32_t bits = counter * 0x9E3779B9u;
+    bits = (bits ^ (bits >> 16)) * 0x7FEB352Du;
+    bits = (bits ^ (bits >> 15)) * 0x846CA68Bu;
+    return bits ^ (bits >> 16);
+}
+
+// The sum of three numbers of 0 .. 1023 has the mean 1534.5 and the deviation 512.
+float bell_of(std::uint32_t bits) {
+    const std::uint32_t sum = (bits & 1023) + ((bits >> 10) & 1023) + ((bits >> 20) & 1023);
+    return (static_cast<float>(static_cast<std::int32_t>(sum)) - 1534.5f) * (1.0f / 512);
+}
+
+// 2^x for -126 <= x <= 0, within 2e-7 of its value, and the same bits with any library.
+float power_of_two(float x) {
+    const auto whole = static_cast<std::int32_t>(x);
+    const float r = x - static_cast<float>(whole), square = r * r;  // r in (-1, 0]
+    const float low = (1.0f + 0.69314712f * r) + (0.24022487f + 0.05549252f * r) * square;
+    const float high = (0.0095818322f + 0.0012765167f * r) + 0.00010944255f * square;
+    return (low + high * (square * square)) * std::bit_cast<float>((whole + 127) << 23);
+}
+
+// Numbers that are drawn once, and read from random places: so do evolution strategies (Salimans
+// and others, Evolution strategies as a scalable alternative to reinforcement learning, 2017).
+struct NoiseTables {
+    static constexpr std::size_t size = std::size_t{1} << 15;
+    // So many numbers in turn are read from one place.
+    static constexpr std::size_t run = 1024;
+    static constexpr std::size_t line = 16;  // places begin at cache lines
+
+    NoiseTables() {
+        // Exponents are lowered by 7 and raised again, since power_of_two() takes none above 0.
+        constexpr float octaves = 1.5f * 1.44269504f, most_octaves = 7, scale = 128;
+        for (std::uint32_t k = 0; k < size; ++k) {
+            bells[k] = bell_of(noise_bits(k));
+            widths[k] = scale * power_of_two(octaves * bells[k] - most_octaves);
+        }
+    }
+    alignas(64) float bells[size];
+    alignas(64) float widths[size];  // exp(1.5 n), n being a number of `bells`
+};
+
+const NoiseTables& noise_tables() {
+    static const NoiseTables tables;
+    return tables;
+}
+
+// Calls body(first, count, place) for runs of a row: a run reads `count` numbers from `place` on.
+template <class Body>
+void for_each_run(RandomStream& stream, std::size_t row, Body body) {
+    constexpr std::size_t places = (NoiseTables::size - NoiseTables::run) / NoiseTables::line;
+    for (std::size_t first = 0; first < row; first += NoiseTables::run)
+        body(first, std::min(NoiseTables::run, row - first),
+             NoiseTables::line * stream.below(static_cast<std::uint32_t>(places + 1)));
+}
 
 std::uint32_t key_of(RandomStream& stream) {
     return static_cast<std::uint32_t>(stream.bits() >> 32);
@@ -14,27 +75,51 @@ std::uint32_t key_of(RandomStream& stream) {
 PlanNoise::PlanNoise(std::size_t plans, int reals, int ranks, std::span<const double> correlations)
     : loops_(plan_loops()),
       plans_(plans),
-      nothing_(plans, 0.0f),
-      all_(plans, 1.0f),
-      widths_(static_cast<std::size_t>(reals) * plans, 1.0f),
+      nothing_(static_cast<std::size_t>(reals) * plans, 0.0f),
+      all_(nothing_.size(), 1.0f),
       no_chance_(plans, 0),
       habits_(plans, 0),
       stretches_(plans, 1.0f),
-      numbers_(static_cast<std::size_t>(reals) * plans),
+      numbers_(nothing_.size()),
       ranks_(static_cast<std::size_t>(ranks) * plans) {
     for (std::size_t p = 0; p < plans; ++p) {
         const double correlation = correlations[p % correlations.size()];
-        old_.push_back(static_cast<float>(correlation));
-        fresh_.push_back(static_cast<float>(std::sqrt(1 - correlation * correlation)));
+        old_.insert(old_.end(), static_cast<std::size_t>(reals), static_cast<float>(correlation));
+        fresh_.insert(fresh_.end(), static_cast<std::size_t>(reals),
+                      static_cast<float>(std::sqrt(1 - correlation * correlation)));
         const double of_ranks = correlations[p / (2 * correlations.size()) % correlations.size()];
         keep_.push_back(static_cast<std::uint32_t>(std::lround(256 * of_ranks)));
+    }
+    if (reals > 0) draw_widths();
+}
+
+// Rows are in ascending order, but for the first plans, in whose places a search puts plans that
+// are not drawn: those would else be the narrow ones.
+void PlanNoise::draw_widths() {
+    constexpr std::size_t least_rows = 4, most_rows = 32, most_values = std::size_t{1} << 16;
+    constexpr std::size_t any = 10;
+    const std::size_t values = numbers_.size(), reals = values / plans_;
+    rows_of_widths_ = std::clamp(most_values / values, least_rows, most_rows);
+    widths_.resize(rows_of_widths_ * values);
+    RandomStream stream(0, 0, 0);
+    std::vector<float> drawn(values);
+    std::vector<std::pair<float, std::size_t>> order(plans_);  // by the greatest width of a plan
+    for (float* row = widths_.data(); row < widths_.data() + widths_.size(); row += values) {
+        for (float& width : drawn) width = noise_tables().widths[stream.below(NoiseTables::size)];
+        for (std::size_t p = 0; p < plans_; ++p) {
+            const float* const plan = drawn.data() + p * reals;
+            order[p] = {*std::max_element(plan, plan + reals), p};
+        }
+        std::sort(order.begin() + static_cast<std::ptrdiff_t>(std::min(any, plans_)), order.end());
+        for (std::size_t p = 0; p < plans_; ++p)
+            std::copy_n(drawn.data() + order[p].second * reals, reals, row + p * reals);
     }
 }
 
 void PlanNoise::restart(RandomStream& stream) {
     is_first_ = true;
-    for (float* row = widths_.data(); row < widths_.data() + widths_.size(); row += plans_)
-        loops_.draw_widths(key_of(stream), plans_, row);
+    if (!widths_.empty())
+        row_of_widths_ = stream.below(static_cast<std::uint32_t>(rows_of_widths_));
     if (ranks_.empty()) return;
     for (std::size_t p = 1; p < plans_; p += 2) {
         constexpr double rarest = 7;  // in powers of two
@@ -47,8 +132,12 @@ void PlanNoise::restart(RandomStream& stream) {
 void PlanNoise::next_step(RandomStream& stream) {
     const float* const old = is_first_ ? nothing_.data() : old_.data();
     const float* const fresh = is_first_ ? all_.data() : fresh_.data();
-    for (float* row = numbers_.data(); row < numbers_.data() + numbers_.size(); row += plans_)
-        loops_.next_numbers({key_of(stream), old, fresh}, plans_, row);
+    const float* const bells = noise_tables().bells;
+    for_each_run(stream, numbers_.size(),
+                 [&](std::size_t first, std::size_t count, std::size_t place) {
+                     loops_.next_numbers({old + first, fresh + first, bells + place}, count,
+                                         numbers_.data() + first);
+                 });
     const std::uint32_t* const keep = is_first_ ? no_chance_.data() : keep_.data();
     for (std::int32_t* row = ranks_.data(); row < ranks_.data() + ranks_.size(); row += plans_)
         loops_.next_ranks({key_of(stream), keep}, plans_, row);

@@ -22,13 +22,16 @@ class PlanNoise {
     void restart(RandomStream& stream);
     void next_step(RandomStream& stream);
 
-    // Each plan has a number with mean 0 and deviation 1, between -3 and 3: an autoregressive
-    // process of sums of three uniform numbers. A search needs no tails.
-    const float* numbers(std::size_t real) const { return numbers_.data() + real * plans_; }
+    // Each real of each plan, one plan after the other, has a number with mean 0 and deviation 1,
+    // between -3 and 3: an autoregressive process of sums of three uniform numbers. A search needs
+    // no tails.
+    const float* numbers() const { return numbers_.data(); }
     // How wide the noise of a real is in each plan where numbers have no bounds, so that it is not
     // known how large they have to be: as often more than 1 as less, and more than 7 in one plan of
     // ten. Each real is narrow in some plans, so that its costs do not hide what the others gain.
-    const float* widths(std::size_t real) const { return widths_.data() + real * plans_; }
+    // Plans side by side are about as wide: where wide ones end early, or leave the numbers that
+    // engines are fast with, whole blocks of environments do.
+    const float* widths() const { return widths_.data() + row_of_widths_ * numbers_.size(); }
     // Plans that do what is usual most of the time: below the habit of a plan its rank says so, and
     // the others have to be stretched by that much over all ranks. The habit of every other plan is
     // 0; those between depart from what is usual once in 1 to 128 steps.
@@ -39,17 +42,20 @@ class PlanNoise {
     const std::int32_t* ranks(std::size_t rank) const { return ranks_.data() + rank * plans_; }
 
   private:
+    void draw_widths();
+
     const PlanLoops& loops_;
-    std::size_t plans_;
+    const std::size_t plans_;
     bool is_first_ = true;
-    std::vector<float> old_, fresh_;    // weights, by plan
-    std::vector<std::uint32_t> keep_;   // the probability of an old rank, in 256ths
-    std::vector<float> nothing_, all_;  // the same of first steps
-    std::vector<float> widths_;         // [real][plan]
+    Aligned<float> old_, fresh_;       // weights: [plan][real]
+    std::vector<std::uint32_t> keep_;  // the probability of an old rank, in 256ths, by plan
+    Aligned<float> nothing_, all_;     // the same of first steps
+    Aligned<float> widths_;            // [row][plan][real]
+    std::size_t rows_of_widths_ = 1, row_of_widths_ = 0;
     std::vector<std::uint32_t> no_chance_;
     std::vector<std::int32_t> habits_;
     std::vector<float> stretches_;
-    std::vector<float> numbers_;       // [real][plan]
+    Aligned<float> numbers_;           // [plan][real]
     std::vector<std::int32_t> ranks_;  // [rank][plan]
 };
 

@@ -2,6 +2,9 @@
 // sub-actions (solvers/spaces).
 #pragma once
 
+#include "planners/cem/plan_loops.hpp"
+
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -15,7 +18,8 @@ struct Plan {
 };
 
 // Many plans side by side: all that is done to a value of one plan is done to that of all others in
-// the same loop.
+// the same loop. Reals lie as in records of actions, one plan after the other; each index has a row
+// of its own.
 class Population {
   public:
     Population(std::size_t plans, int reals, int indices)
@@ -26,19 +30,20 @@ class Population {
     // The plans get so many steps. Their values are any until they are written.
     void set_steps(std::int64_t steps) {
         steps_ = static_cast<std::size_t>(steps);
-        number_values_.resize(steps_ * reals_ * plans_);
+        number_values_.resize(steps_ * reals_ * plans_ + slack);
         index_values_.resize(steps_ * indices_ * plans_);
     }
     std::size_t plans() const { return plans_; }
     std::size_t steps() const { return steps_; }
 
-    // A value of a step, of all plans.
-    float* numbers(std::size_t step, std::size_t real) {
-        return number_values_.data() + (step * reals_ + real) * plans_;
+    std::size_t reals() const { return reals_; }
+
+    // All numbers of a step: those of a plan are a row.
+    float* numbers(std::size_t step) { return number_values_.data() + step * reals_ * plans_; }
+    const float* numbers(std::size_t step) const {
+        return number_values_.data() + step * reals_ * plans_;
     }
-    const float* numbers(std::size_t step, std::size_t real) const {
-        return number_values_.data() + (step * reals_ + real) * plans_;
-    }
+    // An index of a step, of all plans.
     std::int32_t* indices(std::size_t step, std::size_t index) {
         return index_values_.data() + (step * indices_ + index) * plans_;
     }
@@ -48,21 +53,21 @@ class Population {
 
     // Copies the first steps of a plan that has at least as many.
     void put(std::size_t plan, const Plan& from) {
-        for (std::size_t k = 0; k < steps_ * reals_; ++k)
-            number_values_[k * plans_ + plan] = from.numbers[k];
+        for (std::size_t t = 0; t < steps_; ++t)
+            std::copy_n(from.numbers.data() + t * reals_, reals_, numbers(t) + plan * reals_);
         for (std::size_t k = 0; k < steps_ * indices_; ++k)
             index_values_[k * plans_ + plan] = from.indices[k];
     }
     void get(std::size_t plan, Plan& to) const {
-        for (std::size_t k = 0; k < steps_ * reals_; ++k)
-            to.numbers[k] = number_values_[k * plans_ + plan];
+        for (std::size_t t = 0; t < steps_; ++t)
+            std::copy_n(numbers(t) + plan * reals_, reals_, to.numbers.data() + t * reals_);
         for (std::size_t k = 0; k < steps_ * indices_; ++k)
             to.indices[k] = index_values_[k * plans_ + plan];
     }
 
   private:
     std::size_t plans_, reals_, indices_, steps_ = 0;
-    std::vector<float> number_values_;
+    Aligned<float> number_values_;
     std::vector<std::int32_t> index_values_;
 };
 

@@ -3,17 +3,21 @@
 #include "planners/simulation/mean_and_error.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <span>
 
 namespace rddlc::planners {
 
 void Cem::rank() {
     noop_value_ = -std::numeric_limits<double>::infinity();  // where it has no place
     for (std::size_t c = 0; c < population_; ++c) {
-        const auto found = mean_and_error(
-            scenarios_, [&](std::size_t s) { return futures_.value(s * population_ + c); });
+        const auto found = scenarios_ == 1 ? MeanAndError{futures_.value(c), 0}  // finite, or -inf
+                                           : mean_and_error(scenarios_, [&](std::size_t s) {
+                                                 return futures_.value(s * population_ + c);
+                                             });
         values_[c] = found.mean;
         errors_[c] = found.error;
         if (origins_[c] == Origin::Noop) noop_value_ = found.mean;
@@ -21,21 +25,76 @@ void Cem::rank() {
     sort_best();
 }
 
+namespace {
+
+// Integers in the order of doubles, and back.
+std::int64_t ordered(double x) {
+    const auto bits = std::bit_cast<std::int64_t>(x);
+    return bits ^ ((bits >> 63) & std::numeric_limits<std::int64_t>::max());
+}
+double from_ordered(std::int64_t place) {
+    return std::bit_cast<double>(place ^
+                                 ((place >> 63) & std::numeric_limits<std::int64_t>::max()));
+}
+
+// A limit above which there are at least `wanted` values and, unless many are equal, few more.
+// There is none above -inf that fewer values have.
+double limit_of_best(const PlanLoops& loops, std::span<const double> values, std::size_t wanted) {
+    constexpr std::size_t few = 8;
+    std::int64_t low = ordered(-std::numeric_limits<double>::infinity());
+    std::int64_t high = ordered(*std::ranges::max_element(values));
+    while (high - low > 1) {
+        const std::int64_t middle = low + (high - low) / 2;
+        const std::size_t above =
+            loops.count_above(values.data(), values.size(), from_ordered(middle));
+        (above < wanted ? high : low) = middle;
+        if (above >= wanted && above <= wanted + few) break;
+    }
+    return from_ordered(low);
+}
+
+}  // namespace
+
 // As far as the order counts: mppi asks for all of it, the others for the elites, the best first.
 void Cem::sort_best() {
-    const auto is_better = [](const Ranked& a, const Ranked& b) {
-        return a.value > b.value || (a.value == b.value && a.plan < b.plan);
-    };
-    ranked_.clear();
-    for (std::size_t c = 0; c < population_; ++c) ranked_.push_back({values_[c], c});
     const std::size_t wanted =
         options_.weights == Weights::Mppi
             ? population_
             : std::max({elites(), static_cast<std::size_t>(options_.kept), most_compared});
-    const auto end = ranked_.begin() + static_cast<std::ptrdiff_t>(std::min(wanted, population_));
-    if (end < ranked_.end()) std::nth_element(ranked_.begin(), end, ranked_.end(), is_better);
-    std::sort(ranked_.begin(), end, is_better);
-    for (std::size_t k = 0; k < population_; ++k) order_[k] = ranked_[k].plan;
+    if (wanted >= population_) {
+        std::iota(order_.begin(), order_.end(), std::size_t{0});
+        return sort_first(population_);
+    }
+    const double limit = limit_of_best(loops_, values_, wanted);
+    std::size_t best = 0, others = 0;
+    for (std::size_t c = 0; c < population_; ++c) {  // without branches
+        const bool is_best = values_[c] > limit;
+        order_[best] = c;
+        others_[others] = c;
+        best += is_best;
+        others += !is_best;
+    }
+    std::copy_n(others_.begin(), others, order_.begin() + static_cast<std::ptrdiff_t>(best));
+    sort_first(best);
+}
+
+// So many of order_, which are in the order of plans. Few are ordered by counting: a sort guesses
+// each of its comparisons, and is wrong half of the time.
+void Cem::sort_first(std::size_t count) {
+    constexpr std::size_t most_counted = 64;
+    if (count > most_counted) {
+        std::stable_sort(order_.begin(), order_.begin() + static_cast<std::ptrdiff_t>(count),
+                         [this](std::size_t a, std::size_t b) { return values_[a] > values_[b]; });
+        return;
+    }
+    double values[most_counted];
+    std::size_t plans[most_counted], before[most_counted];
+    for (std::size_t k = 0; k < count; ++k) {
+        plans[k] = order_[k];
+        values[k] = values_[plans[k]];
+    }
+    loops_.count_before(values, count, before);
+    for (std::size_t k = 0; k < count; ++k) order_[before[k]] = plans[k];
 }
 
 std::size_t Cem::elites() const {
@@ -56,9 +115,11 @@ void Cem::refit(Memory& memory) {
     fitted_.clear();
     weights_.clear();
     if (options_.weights == Weights::Elites) {
-        const auto end = std::partition_point(
-            order_.begin(), order_.begin() + static_cast<std::ptrdiff_t>(elites()),
-            [this](std::size_t plan) { return is_above_median(values_[plan]); });
+        auto end = order_.begin() + static_cast<std::ptrdiff_t>(elites());
+        if (!is_above_median(values_[*(end - 1)]))
+            end = std::partition_point(order_.begin(), end, [this](std::size_t plan) {
+                return is_above_median(values_[plan]);
+            });
         fitted_.assign(order_.begin(), end);
         weights_.assign(fitted_.size(), 1);
     } else {

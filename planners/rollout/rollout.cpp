@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
+#include <string_view>
 
 namespace rddlc::planners {
 
@@ -37,12 +37,12 @@ Rollout::Rollout(const PlannerContext& context, const RolloutOptions& options)
 
 void Rollout::find_candidates(const DecisionPoint& point, RandomStream& stream) {
     candidates_.clear();
-    candidates_.push_back({point.base_action});
+    known_.clear();
     const auto add = [&](const std::byte* action) {
-        for (const Candidate& known : candidates_)
-            if (std::memcmp(known.action, action, action_size_) == 0) return;
-        candidates_.push_back({action});
+        const std::string_view bytes(reinterpret_cast<const char*>(action), action_size_);
+        if (known_.insert(bytes).second) candidates_.push_back({action});
     };
+    add(point.base_action);
     if (actions_) {
         actions_->find_legal(point.origin, legal_);
         for (std::size_t a = 0; a < actions_->count(); ++a)
@@ -111,7 +111,7 @@ bool Rollout::try_all(const DecisionPoint& point, RandomStream& stream, BudgetMe
         for (const std::size_t c : left_)
             starts_.push_back({nullptr, point.step, candidates_[c].action, depth, draw});
     }
-    values_.clear();
+    values_.resize(starts_.size());
     for (std::size_t first = 0; first < starts_.size(); first += lanes) {
         const auto some =
             std::span(starts_).subspan(first, std::min(lanes, starts_.size() - first));
@@ -120,7 +120,7 @@ bool Rollout::try_all(const DecisionPoint& point, RandomStream& stream, BudgetMe
         if (!continuations_.run(point, some, policy_, meter) &&
             !(is_first && continuations_.depth() > 0))
             return false;
-        for (std::size_t k = 0; k < some.size(); ++k) values_.push_back(continuations_.value(k));
+        for (std::size_t k = 0; k < some.size(); ++k) values_[first + k] = continuations_.value(k);
     }
     depth_ = depth;
     for (std::size_t d = 0; d < draws; ++d) {

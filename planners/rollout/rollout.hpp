@@ -14,6 +14,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <string_view>
+#include <unordered_set>
 #include <vector>
 
 namespace rddlc::planners {
@@ -57,8 +59,9 @@ class Rollout : public Planner {
     std::vector<std::byte> drawn_;
     std::vector<float> rows_, base_row_;
     std::vector<std::uint64_t> streams_;
-    std::vector<Candidate> candidates_;  // the first one is the policy's action
-    std::vector<std::size_t> left_;      // of them, the policy's first
+    std::unordered_set<std::string_view> known_;  // records of candidates
+    std::vector<Candidate> candidates_;           // the first one is the policy's action
+    std::vector<std::size_t> left_;               // of them, the policy's first
     std::vector<Start> starts_;
     std::vector<double> values_;  // of starts
     std::int64_t depth_ = 0;

@@ -3,6 +3,7 @@
 #include "solvers/batches/batch.hpp"
 
 #include <algorithm>
+#include <cstring>
 
 namespace rddlc::planners {
 
@@ -13,22 +14,36 @@ Continuations::Continuations(const rddl_simulator& simulator, std::int64_t lanes
       action_size_(static_cast<std::size_t>(simulator.problem->action_size)),
       futures_(simulator, lanes, horizon),
       states_(futures_.running().size() * state_size_),
-      actions_(futures_.running().size() * action_size_),
-      first_actions_(actions_.size()),
+      first_actions_(futures_.running().size() * action_size_),
       first_states_(keeps_first_states ? states_.size() : 0),
+      actions_(first_actions_.size()),
       steps_(futures_.running().size()),
       streams_(steps_.size()),
       wanted_(steps_.size()),
       first_rewards_(steps_.size()) {}
 
+namespace {
+
+// Records are short: a call for each would take longer than the copy.
+void copy_record(const std::byte* from, std::size_t size, std::byte* to) {
+    std::size_t k = 0;
+    for (; k + sizeof(std::uint64_t) <= size; k += sizeof(std::uint64_t))
+        std::memcpy(to + k, from + k, sizeof(std::uint64_t));
+    for (; k < size; ++k) to[k] = from[k];
+}
+
+}  // namespace
+
 // Lanes without a start are as the decision, and run no further.
 void Continuations::begin(const DecisionPoint& point, std::span<const Start> starts) {
     bool is_elsewhere = false;
+    any_wanted_ = false;
     for (std::size_t k = 0; k < lanes(); ++k) {
         const bool has_start = k < starts.size();
         streams_[k] = has_start ? starts[k].stream : 0;
         steps_[k] = has_start ? starts[k].step : point.step;
         wanted_[k] = has_start && !starts[k].action;
+        any_wanted_ |= wanted_[k] != 0;
         is_elsewhere |= has_start && starts[k].state;
     }
     futures_.begin(point.origin, streams_);
@@ -44,7 +59,7 @@ void Continuations::begin(const DecisionPoint& point, std::span<const Start> sta
         futures_.set_limit(k, k < starts.size() ? starts[k].depth : 1);
     const auto* const none = static_cast<const std::byte*>(simulator_.problem->default_action);
     for (std::size_t k = 0; k < lanes(); ++k)
-        std::copy_n(k < starts.size() && starts[k].action ? starts[k].action : none, action_size_,
+        copy_record(k < starts.size() && starts[k].action ? starts[k].action : none, action_size_,
                     actions_.data() + k * action_size_);
 }
 
@@ -53,11 +68,11 @@ bool Continuations::run(const DecisionPoint& point, std::span<const Start> start
     begin(point, starts);
     policy.begin(point.episode, steps_, point.horizon, streams_);
     for (depth_ = 0; futures_.any_running(); ++depth_) {
-        if (depth_ == 0)
+        if (depth_ == 0 && (any_wanted_ || !policy.is_constant()))
             policy.act(futures_, wanted_, actions_.data(), point.stops);
         else if (depth_ == 1 || !policy.is_constant())
             policy.act(futures_, actions_.data(), point.stops);
-        if (depth_ == 0) first_actions_ = actions_;
+        if (depth_ == 0) std::ranges::copy(actions_, first_actions_.begin());
         if (depth_ % 4 == 0 && meter.is_late()) return false;
         futures_.step(actions_.data());
         const auto idle = static_cast<std::int64_t>(depth_ == 0 ? lanes() - starts.size() : 0);

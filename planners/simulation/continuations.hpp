@@ -56,10 +56,12 @@ class Continuations {
     const rddl_simulator& simulator_;
     std::size_t state_size_, action_size_;
     Futures futures_;
-    std::vector<std::byte> states_, actions_, first_actions_, first_states_;
+    std::vector<std::byte> states_, first_actions_, first_states_;
+    Aligned<std::byte> actions_;
     std::vector<std::int64_t> steps_;
     std::vector<std::uint64_t> streams_;
     std::vector<std::uint8_t> wanted_;  // first actions, of the policy
+    bool any_wanted_ = false;
     std::vector<double> first_rewards_;
     std::int64_t depth_ = 0;
 };

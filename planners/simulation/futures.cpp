@@ -26,7 +26,6 @@ Futures::Futures(const rddl_simulator& simulator, std::int64_t count, std::int64
       rewards_(sources_.size()),
       last_rewards_(sources_.size()),
       returns_(sources_.size()),
-      sums_(sources_.size()),
       causes_(sources_.size()),
       running_(sources_.size()),
       cut_(sources_.size()) {}
@@ -73,67 +72,62 @@ void Futures::step(const std::byte* actions) {
     take_step();
 }
 
-// Loops without branches, where no episode ends, no reward is bad and no limit is reached, which is
-// most of the time. False, with nothing added, where that is not so.
-bool Futures::take_plain_step() {
-    if (made_ + 1 >= next_limit_) return false;
-    const std::size_t lanes = returns_.size();
-    std::uint8_t ends = 0;
-    const std::uint8_t *const causes = causes_.data(), *const running = running_.data();
-    for (std::size_t k = 0; k < lanes; ++k)  // masks, since bytes are multiplied slowly
-        ends =
-            static_cast<std::uint8_t>(ends | (causes[k] & static_cast<std::uint8_t>(-running[k])));
-    if (ends != RDDL_RUNNING) return false;
-    // The batch reports rewards of 0 for those that have ended, but not for those that limits
-    // ended.
-    if (running_count_ < count())
-        for (std::size_t k = 0; k < lanes; ++k) rewards_[k] = running_[k] ? rewards_[k] : 0;
-    std::uint64_t bad = 0;  // of differences that are 0 where rewards are finite, else nan
-    const double discount = discount_;
-    const double *const rewards = rewards_.data(), *const returns = returns_.data();
-    double* const sums = sums_.data();
-    for (std::size_t k = 0; k < lanes; ++k) {
-        bad |= std::bit_cast<std::uint64_t>(rewards[k] - rewards[k]);
-        sums[k] = returns[k] + discount * rewards[k];
-    }
-    if (bad != 0) return false;
-    returns_.swap(sums_);
-    return true;
-}
-
+// Loops without branches, since few episodes end.
 void Futures::take_step() {
     stepped_ = running_count_;
-    if (!take_plain_step()) take_any_step();
+    // Works on copies of the members: a byte that is stored might else be a part of any of them.
+    const std::size_t lanes = returns_.size();
+    const std::uint8_t *const causes = causes_.data(), *const running = running_.data();
+    double *const rewards = rewards_.data(), *const returns = returns_.data();
+    // The batch reports rewards of 0 for those that have ended, but not for those that limits or
+    // rewards ended.
+    if (running_count_ < count())
+        for (std::size_t k = 0; k < lanes; ++k) rewards[k] = running[k] ? rewards[k] : 0;
+    constexpr std::size_t group = 32;  // lanes that are looked at again where one of them ends
+    const double discount = discount_;
+    for (std::size_t first = 0; first < lanes; first += group) {
+        const std::size_t last = std::min(first + group, lanes);
+        std::uint8_t ends = 0;
+        for (std::size_t k = first; k < last; ++k)  // masks, since bytes are multiplied slowly
+            ends = static_cast<std::uint8_t>(ends |
+                                             (causes[k] & static_cast<std::uint8_t>(-running[k])));
+        std::uint64_t bad = 0;  // of differences that are 0 where rewards are finite, else nan
+        for (std::size_t k = first; k < last; ++k) {
+            bad |= std::bit_cast<std::uint64_t>(rewards[k] - rewards[k]);
+            returns[k] += discount * rewards[k];
+        }
+        if (ends != RDDL_RUNNING || bad != 0) end_some(first, last);
+    }
     made_ += 1;
+    if (made_ >= next_limit_) end_by_limits();
     discount_ *= simulator_.problem->discount;
 }
 
-// Works on copies of the members: a byte that is stored might else be a part of any of them.
-void Futures::take_any_step() {
-    const std::int64_t made = made_ + 1;
-    const double discount = discount_;
-    const std::uint8_t* const causes = causes_.data();
-    const std::int64_t* const limits = limits_.data();
-    double *const rewards = rewards_.data(), *const returns = returns_.data();
-    double* const last_rewards = last_rewards_.data();
-    std::uint8_t *const running = running_.data(), *const cut = cut_.data();
-    std::int64_t running_count = 0, next_limit = no_limit;
-    for (std::size_t k = 0, lanes = running_.size(); k < lanes; ++k) {
-        if (!running[k]) {
-            rewards[k] = 0;
-            continue;
-        }
-        const bool is_bad = (causes[k] & RDDL_FAULTED) || !std::isfinite(rewards[k]);
-        if (is_bad) rewards[k] = -std::numeric_limits<double>::infinity();
-        returns[k] += discount * rewards[k];
-        last_rewards[k] = rewards[k];
-        const bool goes_on = !is_bad && causes[k] == RDDL_RUNNING;
-        cut[k] = goes_on && made >= limits[k];
-        running_count += running[k] = goes_on && !cut[k];
-        if (running[k]) next_limit = std::min(next_limit, limits[k]);
+// Of these lanes: those end that have ended, or whose reward is bad.
+void Futures::end_some(std::size_t first, std::size_t last) {
+    for (std::size_t k = first; k < last; ++k) {
+        const bool is_bad = (causes_[k] & RDDL_FAULTED) || !std::isfinite(rewards_[k]);
+        if (!running_[k] || (causes_[k] == RDDL_RUNNING && !is_bad)) continue;
+        if (is_bad) rewards_[k] = returns_[k] = -std::numeric_limits<double>::infinity();
+        last_rewards_[k] = rewards_[k];
+        running_[k] = 0;
+        running_count_ -= 1;
     }
-    running_count_ = running_count;
-    next_limit_ = next_limit;
+}
+
+void Futures::end_by_limits() {
+    next_limit_ = no_limit;
+    for (std::size_t k = 0; k < running_.size(); ++k) {
+        if (!running_[k]) continue;
+        if (made_ >= limits_[k]) {
+            last_rewards_[k] = rewards_[k];
+            cut_[k] = 1;
+            running_[k] = 0;
+            running_count_ -= 1;
+        } else {
+            next_limit_ = std::min(next_limit_, limits_[k]);
+        }
+    }
 }
 
 }  // namespace rddlc::planners

@@ -2,6 +2,7 @@
 // its own.
 #pragma once
 
+#include "planners/simulation/aligned.hpp"
 #include "planners/simulation/origin.hpp"
 #include "solvers/batches/batch.hpp"
 
@@ -70,15 +71,14 @@ class Futures {
     rddl_transition outputs();
     void look_at_causes(bool are_alike);
     void take_step();
-    bool take_plain_step();
-    void take_any_step();
+    void end_some(std::size_t first, std::size_t last);
+    void end_by_limits();
 
     const rddl_simulator& simulator_;
     solvers::BatchHandle batch_;
     std::vector<std::int64_t> sources_;
     std::vector<std::int64_t> limits_;  // steps that it may make
-    std::vector<double> rewards_, last_rewards_, returns_;
-    std::vector<double> sums_;  // room for the returns of a step that may not count
+    Aligned<double> rewards_, last_rewards_, returns_;
     std::vector<std::uint8_t> causes_, running_, cut_;
     std::int64_t running_count_ = 0, stepped_ = 0;
     std::int64_t made_ = 0;               // steps since begin

@@ -6,9 +6,15 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
+#include <functional>
+#include <limits>
+#include <numeric>
+#include <set>
+#include <span>
 
 namespace rddlc::planners {
 namespace {
@@ -33,7 +39,7 @@ TEST(PlanLoops, ComputeTheSameBitsOnAllInstructionSets) {
     const auto run = [](const char* instruction_set) {
         const PlanLoops& loops = loops_of(instruction_set);
         std::vector<float> old(plans, 0.8f), fresh(plans, 0.6f), noise(plans, 0.25f),
-            numbers(plans);
+            numbers(plans), drawn(plans);
         std::vector<std::uint32_t> keep(plans, 100);
         std::vector<std::int32_t> ranks(plans, 5), reached(plans), thresholds;
         std::vector<double> values(plans);
@@ -43,10 +49,10 @@ TEST(PlanLoops, ComputeTheSameBitsOnAllInstructionSets) {
             all.insert(all.end(), bytes, bytes + vector.size() * sizeof vector[0]);
         };
         for (std::uint32_t key = 1; key < 40; ++key) {
-            loops.next_numbers({key, old.data(), fresh.data()}, plans, noise.data());
+            for (std::size_t p = 0; p < plans; ++p)
+                drawn[p] = static_cast<float>(static_cast<int>((p + 1) * key % 61) - 30) * 0.1f;
+            loops.next_numbers({old.data(), fresh.data(), drawn.data()}, plans, noise.data());
             loops.next_ranks({key, keep.data()}, plans, ranks.data());
-            loops.draw_widths(key, plans, numbers.data());
-            note(numbers);
             note(noise);
             note(ranks);
         }
@@ -77,22 +83,70 @@ TEST(PlanLoops, ComputeTheSameBitsOnAllInstructionSets) {
         using Range = solvers::RealHead::Range;
         for (const Range range :
              {Range::Bounded, Range::AboveLower, Range::BelowUpper, Range::Free}) {
-            loops.scale_numbers(0.5f, 2, range == Range::Bounded, old.data(), noise.data(), plans,
-                                numbers.data());
+            // Two reals, of which the other one is free.
+            constexpr float infinity = std::numeric_limits<float>::infinity();
+            const float means[] = {0.5f, 0}, deviations[] = {2, 1};
+            const float limits[] = {range == Range::Bounded ? 1 : infinity, infinity};
+            std::vector<float> all_means(2 * repetitions), all_deviations(2 * repetitions),
+                all_limits(2 * repetitions);
+            repeat(means, 2, all_means.data());
+            repeat(deviations, 2, all_deviations.data());
+            repeat(limits, 2, all_limits.data());
+            loops.scale_numbers(
+                {2 * repetitions, all_means.data(), all_deviations.data(), all_limits.data()},
+                old.data(), noise.data(), plans, numbers.data());
             note(numbers);
             for (const bool rounds : {false, true}) {
                 for (const double exact_default : {0.1, 0.125}) {  // in doubles, and in floats
-                    loops.real_values(scale_of_range(range, rounds, exact_default), numbers.data(),
-                                      plans, values.data());
+                    const RealScale reals[] = {scale_of_range(range, rounds, exact_default),
+                                               scale_of_range(Range::Free, false, 0.125)};
+                    loops.real_values(RealScales(reals), numbers.data(), plans, values.data());
                     note(values);
                 }
             }
+        }
+        // The values are any, and some of them equal.
+        EXPECT_EQ(loops.count_above(values.data(), plans, values[5]),
+                  std::ranges::count_if(values, [&](double v) { return v > values[5]; }));
+        std::vector<std::size_t> order(plans), before(plans);
+        std::iota(order.begin(), order.end(), std::size_t{0});
+        std::ranges::stable_sort(order, std::greater(), [&](std::size_t k) { return values[k]; });
+        loops.count_before(values.data(), plans, before.data());
+        for (std::size_t k = 0; k < plans; ++k) EXPECT_EQ(before[order[k]], k);
+        // Rows of 11 numbers.
+        numbers.resize(plans + slack);
+        const std::size_t chosen[] = {6, 0, 3};
+        const double weights[] = {0.5, 0.25, 0.25};
+        std::vector<double> sums(11), squares(11);
+        loops.add_moments({numbers.data(), 11, 3, chosen, weights}, fresh.data(), sums.data(),
+                          squares.data());
+        note(sums);
+        note(squares);
+        for (std::size_t r = 0; r < 11; ++r) {
+            double sum = 0, square = 0;
+            for (std::size_t c = 0; c < 3; ++c) {
+                const double x = static_cast<double>(numbers[chosen[c] * 11 + r]) -
+                                 static_cast<double>(fresh[r]);
+                sum += weights[c] * x;
+                square += weights[c] * x * x;
+            }
+            EXPECT_EQ(sums[r], sum);
+            EXPECT_EQ(squares[r], square);
         }
         return all;
     };
     const auto portable = run("sse2");
     EXPECT_EQ(portable, run("avx2"));
     EXPECT_EQ(portable, run("avx512"));
+}
+
+std::vector<double> values_of(const RealScale& real, const std::vector<float>& numbers) {
+    std::vector<double> values(numbers.size());
+    plan_loops().real_values(RealScales({&real, 1}), numbers.data(), numbers.size(), values.data());
+    return values;
+}
+double value_of(const RealScale& real, float number) {
+    return values_of(real, {number}).front();
 }
 
 TEST(PlanLoops, GiveRealsTheirValues) {
@@ -107,10 +161,10 @@ TEST(PlanLoops, GiveRealsTheirValues) {
         head.centre = 0.5;
         std::vector<float> numbers;
         for (float u = -200; u < 200; u += 0.37f) numbers.push_back(u);
-        std::vector<double> values(numbers.size());
-        plan_loops().real_values({range, false, head.lower, head.upper, head.scale, head.centre,
-                                  head.least(), head.most(), 0.1f, 0.1},
-                                 numbers.data(), numbers.size(), values.data());
+        const std::vector<double> values =
+            values_of({range, false, head.lower, head.upper, head.scale, head.centre, head.least(),
+                       head.most(), 0.1f, 0.1},
+                      numbers);
         for (std::size_t k = 0; k < numbers.size(); ++k) {
             const double expected = solvers::real_value(head, static_cast<double>(numbers[k]));
             const bool is_bent = range == Range::AboveLower || range == Range::BelowUpper;
@@ -127,45 +181,44 @@ TEST(PlanLoops, GiveRealsTheirValues) {
     space.reals[0].upper = infinity;
     for (const float written : {-2.0f, -1.875f, 0.0f, 0.5f, 1.0f, 100.0f}) {
         float number = 0;
-        double again = 0;
         read_plan_action(space, &written, &number, nullptr);
-        plan_loops().real_values({Range::AboveLower, false, -2, infinity, 1, 0, -2, 1e9, 0.1f, 0.1},
-                                 &number, 1, &again);
+        const double again =
+            value_of({Range::AboveLower, false, -2, infinity, 1, 0, -2, 1e9, 0.1f, 0.1}, number);
         EXPECT_NEAR(again, static_cast<double>(written), 1e-4);
         EXPECT_EQ(again == -2, written == -2);
     }
     // 0.1f is beyond a bound of 0.1.
-    const float upmost = 1;
-    double bound = 0;
-    plan_loops().real_values({Range::Bounded, false, -0.1, 0.1, 1, 0, -0.1, 0.1, 0.0f, 0.0},
-                             &upmost, 1, &bound);
-    EXPECT_EQ(bound, 0.1);
+    EXPECT_EQ(value_of({Range::Bounded, false, -0.1, 0.1, 1, 0, -0.1, 0.1, 0.0f, 0.0}, 1), 0.1);
+    // 0.05f, which lies above 0.05, is as near as floats get to that bound.
+    EXPECT_EQ(value_of({Range::AboveLower, false, 0.05, infinity, 1, 0, 0.05, 1e9, 1.0f, 1}, -9),
+              static_cast<double>(0.05f));
+    // 0.7f lies below 0.7.
+    EXPECT_EQ(value_of({Range::AboveLower, false, 0.7, infinity, 1, 0, 0.7, 1e9, 1.0f, 1}, -9),
+              static_cast<double>(std::nextafter(0.7f, 1.0f)));
     // Ints are within 1e9 also where they have no bounds.
     const float huge = 1e30f;
-    double most = 0;
-    plan_loops().real_values({Range::Free, true, -infinity, infinity, 1, 0, -1e9, 1e9, 0.0f, 0.0},
-                             &huge, 1, &most);
-    EXPECT_EQ(most, 1e9);
+    EXPECT_EQ(value_of({Range::Free, true, -infinity, infinity, 1, 0, -1e9, 1e9, 0.0f, 0.0}, huge),
+              1e9);
     // Bounds beyond the floats do not make actions infinite.
-    plan_loops().real_values(
-        {Range::AboveLower, false, 1e308, infinity, 1, 0, 1e308, infinity, 0.0f, 0.0}, &huge, 1,
-        &most);
-    EXPECT_EQ(most, 1e308);
+    EXPECT_EQ(
+        value_of({Range::AboveLower, false, 1e308, infinity, 1, 0, 1e308, infinity, 0.0f, 0.0},
+                 huge),
+        1e308);
+    const RealScale widest{Range::Bounded, false,   -1.7e308, 1.7e308, 1, 0,
+                           -1.7e308,       1.7e308, 0.0f,     0.0};
+    EXPECT_EQ(value_of(widest, 1), static_cast<double>(std::numeric_limits<float>::max()));
+    EXPECT_EQ(value_of(widest, 0), 0);
     // A value that is the default as a float is the default itself.
-    const float middle = 0;
-    double value = 0;
-    plan_loops().real_values(
-        {Range::Free, false, -infinity, infinity, 1, 0.1, -1e9, 1e9, 0.1f, 0.1}, &middle, 1,
-        &value);
-    EXPECT_EQ(value, 0.1);
+    EXPECT_EQ(value_of({Range::Free, false, -infinity, infinity, 1, 0.1, -1e9, 1e9, 0.1f, 0.1}, 0),
+              0.1);
 }
 
-TEST(PlanLoops, DrawWidthsAboveAndBelowOne) {
+TEST(PlanNoise, DrawsWidthsAboveAndBelowOne) {
     constexpr std::size_t many = 20'000;
-    std::vector<float> widths(many);
-    plan_loops().draw_widths(7, many, widths.data());
+    const double correlation = 0;
+    PlanNoise noise(many, 1, 0, {&correlation, 1});
     double sum = 0, squares = 0;
-    for (const float width : widths) {
+    for (const float width : std::span(noise.widths(), many)) {
         const auto power = static_cast<double>(std::log(width));
         EXPECT_LE(std::abs(power), 4.5 + 1e-4);
         sum += power;
@@ -175,18 +228,35 @@ TEST(PlanLoops, DrawWidthsAboveAndBelowOne) {
     EXPECT_NEAR(std::sqrt(squares / many), 1.5, 0.05);
 }
 
+TEST(PlanNoise, PutsPlansOfAboutTheSameWidthSideBySide) {
+    constexpr std::size_t first = 10, many = 60;  // the first ones are any
+    const double correlation = 0;
+    PlanNoise noise(many, 2, 0, {&correlation, 1});
+    RandomStream stream(1, 2, 3);
+    std::set<float> drawn;
+    for (int k = 0; k < 8; ++k) {
+        noise.restart(stream);
+        const auto greatest = [&](std::size_t p) {
+            return std::max(noise.widths()[2 * p], noise.widths()[2 * p + 1]);
+        };
+        for (std::size_t p = first + 1; p < many; ++p) EXPECT_LE(greatest(p - 1), greatest(p));
+        drawn.insert(greatest(many - 1));
+    }
+    EXPECT_GT(drawn.size(), 3);
+}
+
 TEST(PlanNoise, IsCorrelatedAndKeepsItsDistribution) {
     constexpr std::size_t many = 20'000;
     for (const double correlation : {0.0, 0.8}) {
         PlanNoise noise(many, 1, 1, {&correlation, 1});
         RandomStream stream(1, 2, 3);
         for (int t = 0; t < 10; ++t) noise.next_step(stream);
-        const std::vector<float> before(noise.numbers(0), noise.numbers(0) + many);
+        const std::vector<float> before(noise.numbers(), noise.numbers() + many);
         const std::vector<std::int32_t> ranks_before(noise.ranks(0), noise.ranks(0) + many);
         noise.next_step(stream);
         double sum = 0, squares = 0, products = 0, ranks = 0, same = 0;
         for (std::size_t p = 0; p < many; ++p) {
-            const auto x = static_cast<double>(noise.numbers(0)[p]);
+            const auto x = static_cast<double>(noise.numbers()[p]);
             sum += x;
             squares += x * x;
             products += x * static_cast<double>(before[p]);
@@ -199,14 +269,14 @@ TEST(PlanNoise, IsCorrelatedAndKeepsItsDistribution) {
         EXPECT_NEAR(ranks / many / rank_count, 0.5, 0.011);
         EXPECT_NEAR(same / many, correlation, 0.02);
         // Plans that begin again know nothing of what was before.
-        const std::vector<float> last(noise.numbers(0), noise.numbers(0) + many);
+        const std::vector<float> last(noise.numbers(), noise.numbers() + many);
         noise.restart(stream);
         noise.next_step(stream);
         products = 0;
         for (std::size_t p = 0; p < many; ++p)
-            products += static_cast<double>(noise.numbers(0)[p]) * static_cast<double>(last[p]);
+            products += static_cast<double>(noise.numbers()[p]) * static_cast<double>(last[p]);
         EXPECT_NEAR(products / many, 0, 0.035);
-        const float* const widths = noise.widths(0);
+        const float* const widths = noise.widths();
         const auto share = [&](auto condition) {
             return static_cast<double>(std::count_if(widths, widths + many, condition)) / many;
         };
