@@ -570,9 +570,14 @@ std::vector<ir::NodeId> FunctionBody::chain_parts(ir::NodeId id) const {
     const auto op = chain_operator(program()[id]);
     if (!op || expressions_.is_named(id)) return {id};
     const auto& operands = std::get<ir::Apply>(program()[id].form).operands;
-    std::vector<ir::NodeId> parts = {operands[0]};
-    if (chain_operator(program()[operands[0]]) == op) parts = chain_parts(operands[0]);
-    parts.push_back(operands[1]);
+    const auto parts_of = [&](ir::NodeId operand) {
+        return chain_operator(program()[operand]) == op ? chain_parts(operand)
+                                                        : std::vector{operand};
+    };
+    std::vector<ir::NodeId> parts = parts_of(operands[0]);
+    const bool is_associative = is_one_of(*op, {Operator::And, Operator::Or});
+    for (const ir::NodeId part : is_associative ? parts_of(operands[1]) : std::vector{operands[1]})
+        parts.push_back(part);
     return parts;
 }
 

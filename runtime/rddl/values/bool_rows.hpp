@@ -1,6 +1,7 @@
 // Bools of rows, a byte each, into masks over the rows and back: 8 rows and 64 columns at once.
 #pragma once
 
+#include <rddl/lanes/bit_squares.hpp>
 #include <rddl/lanes/pack.hpp>
 #include <rddl/lanes/simd.hpp>
 #include <rddl/values/pack_ops.hpp>
@@ -37,7 +38,16 @@ RDDL_INLINE Word transposed(Word a) {
     return a;
 }
 
-#ifdef RDDL_SIMD_AVX512
+#if defined(RDDL_SIMD_SQUARES)
+
+inline BitColumns columns_of(const BitRows& rows) {
+    return simd::reinterpret<BitColumns>(simd::columns_of_rows(simd::reinterpret<__m512i>(rows)));
+}
+inline BitRows rows_of(const BitColumns& columns) {
+    return simd::reinterpret<BitRows>(simd::rows_of_columns(simd::reinterpret<__m512i>(columns)));
+}
+
+#elif defined(RDDL_SIMD_AVX512)
 
 // The sources of bytes and of pairs of bytes when 8 rows of 8 bytes become 8 columns, or columns
 // rows.
@@ -299,6 +309,14 @@ template <int count, int n>
 Lanes<std::int64_t, n> bits_in_lanes(const Mask<n>* masks) {
     if constexpr (count <= most_joined && n <= 16) return joined_in_lanes<count>(masks);
     Lanes<std::uint64_t, n> bits;
+#ifdef RDDL_SIMD_SQUARES
+    if constexpr (n == 16) {
+        const auto rows = simd::rows_of_pairs<count>(&masks->bits);
+        bits.part[0] = simd::reinterpret<simd::Words>(rows.low);
+        bits.part[1] = simd::reinterpret<simd::Words>(rows.high);
+        return ints_of(bits);
+    }
+#endif
     constexpr int parts = 8 / bits.part_width;
     for (int i = 0; i < n / 8; ++i) {
         const bit_matrix::BitRows rows =
@@ -312,6 +330,14 @@ Lanes<std::int64_t, n> bits_in_lanes(const Mask<n>* masks) {
 template <int count, int n>
 void store_lanes(const Lanes<std::int64_t, n>& lanes, Mask<n>* masks) {
     const Lanes<std::uint64_t, n> bits = words_of(lanes);
+#ifdef RDDL_SIMD_SQUARES
+    if constexpr (n == 16) {
+        simd::store_as_pairs<count>(
+            {simd::reinterpret<__m512i>(bits.part[0]), simd::reinterpret<__m512i>(bits.part[1])},
+            &masks->bits);
+        return;
+    }
+#endif
     constexpr int parts = 8 / bits.part_width;
     std::array<bit_matrix::BitColumns, n / 8> columns;
     for (int i = 0; i < n / 8; ++i) {

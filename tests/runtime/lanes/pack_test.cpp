@@ -230,6 +230,35 @@ TEST(Packs, MakeBitsOfBoolsAsScalarsDo) {
     }
 }
 
+template <std::size_t count>
+void expect_spread_bits() {
+    std::mt19937_64 random(count);
+    Ints bits;
+    for (int lane = 0; lane < width; ++lane) bits.set(lane, static_cast<std::int64_t>(random()));
+    struct {
+        std::array<Bools, count> row;
+        Bools behind{true};
+    } bools;
+    spread(bools.row, bits);
+    EXPECT_TRUE(all(bools.behind));
+    constexpr std::uint64_t there = ~std::uint64_t{0} >> (64 - count);
+    const Ints again = rddl::bits(bools.row);
+    for (int lane = 0; lane < width; ++lane) {
+        const auto own = static_cast<std::uint64_t>(bits[lane]);
+        for (std::size_t i = 0; i < count; ++i) EXPECT_EQ(bools.row[i][lane], (own >> i & 1) != 0);
+        EXPECT_EQ(static_cast<std::uint64_t>(again[lane]), own & there);
+    }
+}
+
+TEST(Packs, SpreadBitsOverBools) {
+    expect_spread_bits<1>();
+    expect_spread_bits<7>();
+    expect_spread_bits<20>();
+    expect_spread_bits<32>();
+    expect_spread_bits<33>();
+    expect_spread_bits<64>();
+}
+
 // The six comparisons, each once, of a and b.
 template <class T>
 void expect_comparisons_of_scalars(const std::vector<T>& a, const std::vector<T>& b) {

@@ -61,6 +61,41 @@ constexpr std::array<std::array<double, 11>, 2> many_thresholds = {{
     {0.05, 0.05, 0.1, 0.15, 0.2, 0.25, 0.3, 0.35, 0.4, 0.45, 0.5},
 }};
 
+// Thresholds that a guide table of 8 parts separates, and others.
+constexpr std::array<double, 10> even_thresholds = {
+    0.0, 0.1, 0.2, 0.30000000000000004, 0.4, 0.5, 0.6, 0.75, 0.9, 1.0};
+constexpr std::array<float, 9> float_thresholds = {0.1f, 0.2f, 0.3f, 0.4f, 0.5f,
+                                                   0.6f, 0.7f, 0.8f, 0.9f};
+constexpr std::array<double, 9> narrow_thresholds = {0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.801};
+static_assert(sample::detail::GuideTable<even_thresholds>::parts == 8);
+static_assert(sample::detail::GuideTable<narrow_thresholds>::parts == 0);
+
+template <const auto& thresholds>
+void expect_guide_to_count(double u) {
+    using R = typename std::remove_cvref_t<decltype(thresholds)>::value_type;
+    using Guide = sample::detail::GuideTable<thresholds>;
+    const auto number = static_cast<R>(u);
+    const auto reached =
+        std::ranges::count_if(thresholds, [&](R threshold) { return threshold <= number; });
+    EXPECT_EQ(Guide::template count<std::int64_t>(number), reached) << u;
+    using Lane = Pack<16, R>;
+    EXPECT_EQ(Guide::template count<typename Lane::Int>(typename Lane::Real{number})[5], reached);
+}
+
+TEST(GuideTable, CountsThresholds) {
+    for (int i = 0; i < 1000; ++i) {
+        expect_guide_to_count<even_thresholds>(i / 1000.0);
+        expect_guide_to_count<float_thresholds>(i / 1000.0);
+    }
+    for (const double threshold : even_thresholds) {
+        if (threshold == 1) continue;
+        expect_guide_to_count<even_thresholds>(threshold);
+        expect_guide_to_count<even_thresholds>(threshold + 0x1p-52);
+        if (threshold > 0) expect_guide_to_count<even_thresholds>(threshold - 0x1p-52);
+    }
+    expect_guide_to_count<even_thresholds>(1 - 0x1p-52);
+}
+
 TEST(Interval, IsTheNumberOfThresholdsThatTheUniformNumberReaches) {
     Context<Scalar> context{stream_key(5, 0, 0), 1, {}};
     for (int i = 0; i < 1000; ++i) {
@@ -69,6 +104,7 @@ TEST(Interval, IsTheNumberOfThresholdsThatTheUniformNumberReaches) {
             return std::ranges::count_if(row, [&](double threshold) { return threshold <= u; });
         };
         EXPECT_EQ(sample::interval<few_thresholds>(context, {0, i}), reached(few_thresholds));
+        EXPECT_EQ(sample::interval<even_thresholds>(context, {0, i}), reached(even_thresholds));
         for (std::int64_t row = 0; row < 2; ++row)
             EXPECT_EQ(sample::interval<many_thresholds>(context, {0, i}, row),
                       reached(many_thresholds[static_cast<std::size_t>(row)]));

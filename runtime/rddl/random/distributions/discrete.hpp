@@ -4,6 +4,7 @@
 
 #include <rddl/lanes/lane.hpp>
 #include <rddl/lanes/pack.hpp>
+#include <rddl/random/distributions/guide_table.hpp>
 #include <rddl/random/distributions/probability.hpp>
 #include <rddl/random/random.hpp>
 #include <rddl/values/context.hpp>
@@ -109,7 +110,7 @@ struct RowLength<std::array<T, n>> {
 template <class T, std::size_t m, std::size_t n>
 struct RowLength<std::array<std::array<T, m>, n>> : RowLength<std::array<T, m>> {};
 
-inline constexpr Index most_counted = 8;  // longer rows are searched by halves
+inline constexpr Index most_counted = 8;  // longer rows are searched
 
 }  // namespace detail
 
@@ -120,6 +121,9 @@ RDDL_INLINE typename L::Int interval(Context<L>& context, SomePlace place, const
     using Int = typename L::Int;
     constexpr Index size = detail::RowLength<std::remove_cvref_t<decltype(thresholds)>>::value;
     const auto u = uniform_at(context, place);
+    if constexpr (size > detail::most_counted && sizeof...(row) == 0)
+        if constexpr (detail::GuideTable<thresholds>::parts > 0)
+            return detail::GuideTable<thresholds>::template count<Int>(u);
     const auto is_at_most = [&](const auto& i) RDDL_INLINE_LAMBDA {
         return at(thresholds, in_range(context, row)..., i) <= u;
     };

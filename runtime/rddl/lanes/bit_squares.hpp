@@ -1,0 +1,99 @@
+// Matrices of bits in registers, by squares of 8 x 8: processors that permute the bytes of a
+// register (VBMI) also transpose eight squares by one instruction (GFNI).
+#pragma once
+
+#include <rddl/lanes/simd.hpp>
+
+#include <cstdint>
+
+#if defined(RDDL_SIMD_AVX512) && defined(__AVX512VBMI__) && defined(__GFNI__)
+#define RDDL_SIMD_SQUARES
+
+namespace rddl::simd::inline RDDL_SIMD_LEVEL {
+
+// Byte i of a word is row 7 - i of a square, and row i of the result.
+inline __m512i transposed_from_below(__m512i squares) {
+    const __m512i unit = _mm512_set1_epi64(static_cast<std::int64_t>(0x8040201008040201));
+    return _mm512_maskz_gf2p8affine_epi64_epi8(~std::uint64_t{0}, unit, squares, 0);
+}
+
+// Byte i of the result is byte place(i) of a register, or of two, one behind the other.
+struct alignas(64) BytePlaces {
+    std::uint8_t of[64];
+};
+template <class Place>
+inline constexpr BytePlaces byte_places = [] {
+    BytePlaces all{};
+    for (int i = 0; i < 64; ++i) all.of[i] = static_cast<std::uint8_t>(Place{}(i));
+    return all;
+}();
+template <class Place>
+[[gnu::always_inline]] inline __m512i permuted_bytes(__m512i a, Place) {
+    const __m512i places = _mm512_load_si512(&byte_places<Place>);
+    return _mm512_maskz_permutexvar_epi8(~std::uint64_t{0}, places, a);
+}
+template <class Place>
+[[gnu::always_inline]] inline __m512i permuted_bytes(__m512i a, __m512i b, Place) {
+    const __m512i places = _mm512_load_si512(&byte_places<Place>);
+    return _mm512_maskz_permutex2var_epi8(~std::uint64_t{0}, a, places, b);
+}
+
+// 8 rows of 64 bits as 64 columns of 8 bits, and columns as rows.
+inline __m512i columns_of_rows(__m512i rows) {
+    return transposed_from_below(
+        permuted_bytes(rows, [](int i) { return 8 * (7 - i % 8) + i / 8; }));
+}
+inline __m512i rows_of_columns(__m512i columns) {
+    const __m512i squares =
+        transposed_from_below(permuted_bytes(columns, [](int i) { return i ^ 7; }));
+    return permuted_bytes(squares, [](int i) { return i % 8 * 8 + i / 8; });
+}
+
+// `count` <= 64 columns of 16 bits as 16 rows of `count` bits in two registers; the other bits of
+// the rows are 0. A register of squares has those of the upper 8 rows behind those of the lower 8.
+struct TwoRegisters {
+    __m512i low, high;
+};
+template <int count>
+[[gnu::always_inline]] inline TwoRegisters rows_of_pairs(const std::uint16_t* columns) {
+    const auto squares_of = [&](int first) __attribute__((always_inline)) {
+        const auto there = static_cast<std::uint32_t>((~std::uint64_t{0} >> (64 - count)) >> first);
+        const __m512i pairs = _mm512_maskz_loadu_epi16(there, columns + first);
+        return transposed_from_below(permuted_bytes(
+            pairs, [](int i) { return 2 * (8 * (i / 8 % 4) + 7 - i % 8) + i / 32; }));
+    };
+    constexpr auto in_low = [](int i) {
+        return i % 8 * 8 + i / 8 + i % 8 / 4 * 32;
+    };
+    constexpr auto in_high = [](int i) {
+        return i % 8 * 8 + i / 8 + i % 8 / 4 * 32 + 32;
+    };
+    const __m512i first = squares_of(0);
+    if constexpr (count > 32) {
+        const __m512i second = squares_of(32);
+        return {permuted_bytes(first, second, in_low), permuted_bytes(first, second, in_high)};
+    } else {
+        const __m512i zero = _mm512_setzero_si512();
+        return {permuted_bytes(first, zero, in_low), permuted_bytes(first, zero, in_high)};
+    }
+}
+// The reverse.
+template <int count>
+[[gnu::always_inline]] inline void store_as_pairs(TwoRegisters rows, std::uint16_t* columns) {
+    const auto store = [&](int first, __m512i squares) __attribute__((always_inline)) {
+        const auto there = static_cast<std::uint32_t>((~std::uint64_t{0} >> (64 - count)) >> first);
+        const __m512i pairs = permuted_bytes(transposed_from_below(squares),
+                                             [](int i) { return i % 2 * 32 + i / 2; });
+        _mm512_mask_storeu_epi16(columns + first, there, pairs);
+    };
+    store(0, permuted_bytes(rows.low, rows.high,
+                            [](int i) { return i / 32 * 64 + 8 * (7 - i % 8) + i / 8 % 4; }));
+    if constexpr (count > 32)
+        store(32, permuted_bytes(rows.low, rows.high, [](int i) {
+                  return i / 32 * 64 + 8 * (7 - i % 8) + i / 8 % 4 + 4;
+              }));
+}
+
+}  // namespace rddl::simd::inline RDDL_SIMD_LEVEL
+
+#endif
