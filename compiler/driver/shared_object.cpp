@@ -53,7 +53,7 @@ std::vector<std::string> processor_flags() {
             return {"-march=x86-64-v3"};
         case rddl::InstructionSet::Avx512:
             if (!rddl::processor_permutes_bytes()) return {"-march=x86-64-v4"};
-            return {"-march=x86-64-v4", "-mavx512vbmi", "-mavx512vpopcntdq"};
+            return {"-march=x86-64-v4", "-mavx512vbmi", "-mavx512vpopcntdq", "-mgfni"};
     }
 #endif
     return {};

@@ -18,7 +18,7 @@ bool processor_has(std::string_view level) {
     if (level == "x86-64-v4") return v4;
     if (level == "x86-64-v4-vbmi")  // as rddlc compiles where it may (rddl/lanes/processor.hpp)
         return v4 && __builtin_cpu_supports("avx512vbmi") &&
-               __builtin_cpu_supports("avx512vpopcntdq");
+               __builtin_cpu_supports("avx512vpopcntdq") && __builtin_cpu_supports("gfni");
 #endif
     return level == "portable";
 }

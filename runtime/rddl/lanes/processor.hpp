@@ -24,10 +24,11 @@ inline InstructionSet processor_instruction_set() {
 }
 
 // Whether it also has what processors with AVX-512 have gained since 2019: permutations of the
-// bytes of a register, and counts of bits.
+// bytes of a register, counts of bits, and products of matrices of bits.
 inline bool processor_permutes_bytes() {
     __builtin_cpu_init();
-    return __builtin_cpu_supports("avx512vbmi") && __builtin_cpu_supports("avx512vpopcntdq");
+    return __builtin_cpu_supports("avx512vbmi") && __builtin_cpu_supports("avx512vpopcntdq") &&
+           __builtin_cpu_supports("gfni");
 }
 
 // The same, but no greater than the environment variable RDDL_INSTRUCTION_SET allows: sse2, avx2

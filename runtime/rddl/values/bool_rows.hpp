@@ -11,6 +11,11 @@
 #include <cstdint>
 #include <cstring>
 
+// Processors with AVX-512 that permute bytes and multiply matrices of bits.
+#if defined(RDDL_SIMD_AVX512) && defined(__AVX512VBMI__) && defined(__GFNI__)
+#define RDDL_TRANSPOSES_BITS
+#endif
+
 namespace rddl::inline RDDL_SIMD_LEVEL {
 
 namespace bit_matrix {
@@ -23,6 +28,53 @@ using BitColumns = std::uint8_t __attribute__((vector_size(64)));
 using BitRows = std::array<std::uint64_t, 8>;
 using BitColumns = std::array<std::uint8_t, 64>;
 #endif
+
+#ifdef RDDL_SIMD_AVX512
+// The places from which elements of a register come when they are permuted.
+template <class Element, int count, class Source>
+inline constexpr auto sources = [] {
+    struct alignas(64) {
+        std::array<Element, count> of;
+    } all{};
+    for (int i = 0; i < count; ++i) all.of[i] = static_cast<Element>(Source{}(i));
+    return all;
+}();
+#endif
+
+#ifdef RDDL_TRANSPOSES_BITS
+
+template <class Source>
+inline __m512i permuted_bytes(__m512i a, Source) {
+    const auto places = _mm512_load_si512(&sources<std::uint8_t, 64, Source>);
+    return _mm512_maskz_permutexvar_epi8(~std::uint64_t{0}, places, a);
+}
+// Transposes matrices of 8 x 8, byte 7 - i being row i: their product with the unit matrix, whose
+// operands and result the processor numbers in opposite ways.
+inline __m512i transposed(__m512i a) {
+    const __m512i unit = _mm512_set1_epi64(static_cast<std::int64_t>(0x8040201008040201));
+    return _mm512_maskz_gf2p8affine_epi64_epi8(~std::uint64_t{0}, unit, a, 0);
+}
+
+inline BitColumns columns_of(const BitRows& rows) {
+    constexpr auto rows_downwards = [](int i) {
+        return (7 - i % 8) * 8 + i / 8;
+    };
+    return simd::reinterpret<BitColumns>(
+        transposed(permuted_bytes(simd::reinterpret<__m512i>(rows), rows_downwards)));
+}
+inline BitRows rows_of(const BitColumns& columns) {
+    constexpr auto columns_downwards = [](int i) {
+        return i / 8 * 8 + 7 - i % 8;
+    };
+    constexpr auto rows_together = [](int i) {
+        return i % 8 * 8 + i / 8;
+    };
+    const auto squares =
+        transposed(permuted_bytes(simd::reinterpret<__m512i>(columns), columns_downwards));
+    return simd::reinterpret<BitRows>(permuted_bytes(squares, rows_together));
+}
+
+#else
 
 // Transposes matrices of 8 x 8, byte i being row i (H. Warren, Hacker's Delight, section 7-3).
 template <class Word>
@@ -39,16 +91,6 @@ RDDL_INLINE Word transposed(Word a) {
 
 #ifdef RDDL_SIMD_AVX512
 
-// The sources of bytes and of pairs of bytes when 8 rows of 8 bytes become 8 columns, or columns
-// rows.
-template <class Element, int count, class Source>
-inline constexpr auto sources = [] {
-    struct alignas(64) {
-        std::array<Element, count> of;
-    } all{};
-    for (int i = 0; i < count; ++i) all.of[i] = static_cast<Element>(Source{}(i));
-    return all;
-}();
 inline __m512i shuffled_bytes(__m512i a, const void* places) {
     return _mm512_maskz_shuffle_epi8(~std::uint64_t{0}, a, _mm512_load_si512(places));
 }
@@ -107,6 +149,7 @@ inline BitRows rows_of(const BitColumns& columns) {
 }
 
 #endif
+#endif
 
 // The lanes [lane, lane + 8) of `count` <= 64 masks, a column each; the other columns are zero.
 template <int n>
@@ -115,6 +158,21 @@ RDDL_INLINE BitColumns lanes_of(const Mask<n>* masks, int count, int lane) {
     const std::uint64_t there = ~std::uint64_t{0} >> (64 - count);
     if constexpr (n == 8)
         return simd::reinterpret<BitColumns>(_mm512_maskz_loadu_epi8(there, masks));
+#ifdef RDDL_TRANSPOSES_BITS
+    if constexpr (n == 16) {
+        constexpr auto low_bytes = [](int i) {
+            return 2 * i;
+        };
+        const auto places = _mm512_load_si512(&sources<std::uint8_t, 64, decltype(low_bytes)>);
+        const auto masks_from = [&](int first) RDDL_INLINE_LAMBDA {
+            return _mm512_maskz_loadu_epi16(static_cast<std::uint32_t>(there >> first),
+                                            masks + first);
+        };
+        return simd::reinterpret<BitColumns>(_mm512_maskz_permutex2var_epi8(
+            there, masks_from(0), places | _mm512_set1_epi8(static_cast<char>(lane / 8)),
+            count > 32 ? masks_from(32) : _mm512_setzero_si512()));
+    }
+#endif
     if constexpr (n == 16) {
         const auto half = [&](int first) RDDL_INLINE_LAMBDA {
             constexpr std::uint32_t all = ~std::uint32_t{0};
@@ -168,8 +226,9 @@ RDDL_INLINE void store_masks(const std::array<BitColumns, n / 8>& columns, int c
                    high = simd::reinterpret<__m512i>(columns[1]);
         store_half(0, _mm512_maskz_extracti64x4_epi64(0xF, low, 0),
                    _mm512_maskz_extracti64x4_epi64(0xF, high, 0));
-        store_half(32, _mm512_maskz_extracti64x4_epi64(0xF, low, 1),
-                   _mm512_maskz_extracti64x4_epi64(0xF, high, 1));
+        if (count > 32)
+            store_half(32, _mm512_maskz_extracti64x4_epi64(0xF, low, 1),
+                       _mm512_maskz_extracti64x4_epi64(0xF, high, 1));
         return;
     }
     if constexpr (n == 64) {
