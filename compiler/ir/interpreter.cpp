@@ -45,7 +45,8 @@ bool are_moderate(const Program& program, const std::vector<Field>& fields,
     return std::ranges::all_of(fields, [&](const Field& field) {
         const auto count = static_cast<std::size_t>(program[field.buffer].count());
         const std::span reals(reinterpret_cast<const double*>(record + field.offset), count);
-        return std::ranges::all_of(reals, rddl::is_moderate<rddl::Scalar>);
+        return std::ranges::all_of(
+            reals, [](double real) { return rddl::is_moderate<rddl::Scalar>(real); });
     });
 }
 

@@ -12,6 +12,7 @@
 #include "passes/aggregations/hoist_aggregations.hpp"
 #include "passes/aggregations/index_directly.hpp"
 #include "passes/aggregations/join_masks.hpp"
+#include "passes/aggregations/keep_bools.hpp"
 #include "passes/aggregations/make_aggregations_sparse.hpp"
 #include "passes/aggregations/merge_draws.hpp"
 #include "passes/aggregations/search_intervals.hpp"
@@ -244,6 +245,12 @@ constexpr Pass in_order[] = {
      {"make_aggregations_sparse", "tabulate_constants"},
      "the terms that are still expensive are known",
      leaves_out_zeros},
+    {"keep_bools",
+     Phase::Aggregations,
+     keep_bools,
+     "products of bools, and comparisons of their numbers with constants, are bools",
+     {"make_aggregations_sparse", "skip_zero_terms"},
+     "tables of bools are factors there"},
     {"count_bits",
      Phase::Aggregations,
      count_bits,

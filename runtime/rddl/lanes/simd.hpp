@@ -323,6 +323,17 @@ template <class To, class V>
     return result;
 }
 
+// The lower 32 bits of each lane.
+[[gnu::always_inline]] inline Vector<std::uint32_t> lower_halves(Words first, Words second) {
+#ifdef RDDL_SIMD_AVX512
+    const Vector<std::uint32_t> even = {0, 2, 4, 6, 8, 10, 12, 14, 16, 18, 20, 22, 24, 26, 28, 30};
+    return (Vector<std::uint32_t>)_mm512_maskz_permutex2var_epi32(0xFFFF, (__m512i)first,
+                                                                  (__m512i)even, (__m512i)second);
+#else
+    return narrow_both<std::uint32_t>(first, second);
+#endif
+}
+
 // Rounded to nearest, halves to even, for every int.
 [[gnu::always_inline]] inline Reals to_reals(Ints a) {
 #ifdef RDDL_SIMD_AVX512

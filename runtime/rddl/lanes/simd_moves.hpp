@@ -185,6 +185,23 @@ template <class V>
     detail::exchange_all<1>(rows);
 }
 
+namespace detail {
+
+template <class V, std::size_t... lane>
+[[gnu::always_inline]] inline void separate_pairs(V& a, V& b, std::index_sequence<lane...>) {
+    const V first = __builtin_shufflevector(a, b, (2 * lane)...);
+    b = __builtin_shufflevector(a, b, (2 * lane + 1)...);
+    a = first;
+}
+
+}  // namespace detail
+
+// Neighbours that are pairs: all first ones, and all second ones.
+template <class V>
+[[gnu::always_inline]] inline void separate_pairs(V& a, V& b) {
+    detail::separate_pairs(a, b, std::make_index_sequence<sizeof(V) / sizeof(V{}[0])>());
+}
+
 // ------------------------------------------------------------------------ some of the lanes
 
 // The lanes of several registers where the mask holds, 8 at most, one after the other; `others` in

@@ -41,20 +41,33 @@ constexpr StreamKey stream_key(std::uint64_t seed, std::uint64_t environment,
     return {static_cast<std::uint32_t>(keys.low), static_cast<std::uint32_t>(keys.high)};
 }
 
+namespace detail {
+
+// The upper 23 bits of a word in the lower half, as the fraction of a number in [0, 1).
+template <class Word>
+RDDL_INLINE auto unit_float(Word high) {
+    const auto bits = lower_halves(high);
+    return real_of_bits((bits >> 9) | decltype(bits){rddl::bits_of(1.0f)}) - 1.0f;
+}
+
+}  // namespace detail
+
 // The upper 52 bits of a number of 64: a multiple of 2^-52 in [0, 1). Floats take the upper 23, so
 // the double rounded down.
 template <class R = double, class Word>
 RDDL_INLINE auto unit_real(Word bits) {
-    const Word one = Word{std::uint64_t{0x3FF0000000000000}};
     if constexpr (std::same_as<R, float>)
-        return to_float(real_of_bits(((bits >> 41) << 29) | one) - 1.0);
+        return detail::unit_float(upper_halves(bits));
     else
-        return real_of_bits((bits >> 12) | one) - 1.0;
+        return real_of_bits((bits >> 12) | Word{bits_of(1.0)}) - 1.0;
 }
 // The unit real of a number's two words, low word first.
 template <class R = double, class Word>
 RDDL_INLINE auto unit_real(Word low, Word high) {
-    return unit_real<R>(join_lower_halves(low, high));
+    if constexpr (std::same_as<R, float>)
+        return detail::unit_float(high);
+    else
+        return unit_real<R>(join_lower_halves(low, high));
 }
 // A number in (0, 1), symmetric about 1/2: neither 0 nor 1 occurs. Exact.
 template <RealLanes Real>

@@ -268,12 +268,33 @@ RDDL_INLINE T read_numbers(const std::byte* rows, std::int64_t row_size, int pre
     else
         return read_some_numbers<T>(rows, row_size, present);
 }
+// Makes a value of the lanes of a number of records.
+template <class T, class Lanes>
+RDDL_INLINE T from_records(const Lanes& numbers) {
+    if constexpr (std::is_same_v<typename T::Element, float>)
+        return to_float(numbers);
+    else
+        return numbers;
+}
+// Reads rows of two numbers.
+template <class T>
+RDDL_INLINE void read_pairs(const std::byte* rows, T* values) {
+    Lanes<InRecord<typename T::Element>, T::width> columns[2];
+    for (int p = 0; p < columns[0].part_count; ++p) {
+        simd::Vector<InRecord<typename T::Element>> halves[2];
+        __builtin_memcpy(halves, rows + p * static_cast<int>(sizeof halves), sizeof halves);
+        simd::separate_pairs(halves[0], halves[1]);
+        columns[0].part[p] = halves[0];
+        columns[1].part[p] = halves[1];
+    }
+    for (int i = 0; i < 2; ++i) values[i] = from_records<T>(columns[i]);
+}
 // Reads `count` columns, at most as many as a register has lanes, of whole blocks.
 template <class T>
 RDDL_INLINE void read_columns(const std::byte* rows, std::int64_t row_size, std::int64_t count,
                               T* values) {
-    using Value =
-        std::conditional_t<std::is_same_v<typename T::Element, float>, double, typename T::Element>;
+    using Value = InRecord<typename T::Element>;
+    if (count == 2 && row_size == 2 * sizeof(Value)) return read_pairs(rows, values);
     Lanes<Value, T::width> columns[simd::lanes];
     for (int p = 0; p < columns[0].part_count; ++p) {
         simd::Vector<Value> square[simd::lanes];
@@ -288,11 +309,7 @@ RDDL_INLINE void read_columns(const std::byte* rows, std::int64_t row_size, std:
         simd::transpose(square);
         for (int i = 0; i < simd::lanes; ++i) columns[i].part[p] = square[i];
     }
-    for (int i = 0; i < count; ++i)
-        if constexpr (std::is_same_v<typename T::Element, float>)
-            values[i] = to_float(columns[i]);
-        else
-            values[i] = columns[i];
+    for (int i = 0; i < count; ++i) values[i] = from_records<T>(columns[i]);
 }
 template <class T>
 RDDL_INLINE void write_numbers(const T& values, std::byte* rows, std::int64_t row_size,
@@ -309,13 +326,6 @@ RDDL_INLINE void write_numbers(const T& values, std::byte* rows, std::int64_t ro
     }
 }
 
-// Fewer columns are gathered.
-#ifdef RDDL_SIMD_AVX512
-inline constexpr std::int64_t least_transposed = 2;
-#else
-inline constexpr std::int64_t least_transposed = simd::lanes;
-#endif
-
 template <class T>
 const T* values_in(const std::byte* block, const Column& column) {
     return reinterpret_cast<const T*>(block + column.block);
@@ -324,6 +334,56 @@ template <class T>
 T* values_in(std::byte* block, const Column& column) {
     return reinterpret_cast<T*>(block + column.block);
 }
+
+#ifdef RDDL_SIMD_AVX512
+// Whether records are so short that each is read once, whatever lies in it. Those of bools alone
+// have quicker ways (bool_rows.hpp), and so have those of one column.
+template <std::size_t count>
+RDDL_INLINE bool are_short(const KnownColumns<count>& columns) {
+    constexpr std::int64_t most_bools = 8;
+    std::int64_t bools = 0, numbers = 0;
+    for_each_column(columns, [&](const Column& column) RDDL_INLINE_LAMBDA {
+        (column.scalar == RDDL_BOOL ? bools : numbers) += column.count;
+    });
+    return count > 1 && numbers > 0 && bools <= most_bools && columns.row_size <= 8 * simd::lanes;
+}
+inline bool are_short(const Columns&) {
+    return false;
+}
+// The words of short records of whole blocks become their values.
+template <int n, class R, class List>
+RDDL_INLINE void read_short_records(Pack<n, R>, const ColumnTable<List>& columns,
+                                    const std::byte* rows, std::byte* block) {
+    Lanes<std::uint64_t, n> words[simd::lanes];
+    read_columns(rows, columns.row_size, columns.row_size / 8, words);
+    for_each_column(columns, [&](const Column& column) RDDL_INLINE_LAMBDA {
+        with_type<Pack<n, R>>(column.scalar, [&]<class T>() RDDL_INLINE_LAMBDA {
+            T* const values = values_in<T>(block, column);
+            const std::int64_t first = column.row / 8;
+            for (std::int64_t k = 0; k < column.count; ++k) {
+                if constexpr (std::is_same_v<T, Mask<n>>) {
+                    const std::int64_t byte = column.row + k;
+                    values[k] =
+                        ints_of(words[byte / 8] &
+                                Lanes<std::uint64_t, n>(std::uint64_t{0xFF} << byte % 8 * 8)) !=
+                        std::int64_t{0};
+                } else if constexpr (std::is_same_v<typename T::Element, float>) {
+                    values[k] = to_float(real_of_bits(words[first + k]));
+                } else {
+                    values[k] = same_bits<typename T::Element>(words[first + k]);
+                }
+            }
+        });
+    });
+}
+#endif
+
+// Fewer columns are gathered.
+#ifdef RDDL_SIMD_AVX512
+inline constexpr std::int64_t least_transposed = 2;
+#else
+inline constexpr std::int64_t least_transposed = simd::lanes;
+#endif
 
 }  // namespace detail
 
@@ -378,6 +438,10 @@ void read_records(Scalar, const ColumnTable<List>& columns, const std::byte* row
 template <int n, class R, class List>
 RDDL_INLINE void read_records(Pack<n, R>, const ColumnTable<List>& columns, const std::byte* rows,
                               int present, std::byte* block) {
+#ifdef RDDL_SIMD_AVX512
+    if (present == n && detail::are_short(columns))
+        return detail::read_short_records(Pack<n, R>{}, columns, rows, block);
+#endif
     const auto read = [&]<class T>(const Column& column, T* values) RDDL_INLINE_LAMBDA {
         const std::byte* const first = rows + column.row;
         std::int64_t k = 0;

@@ -3,7 +3,9 @@
 #pragma once
 
 #include <rddl/lanes/lane.hpp>
+#include <rddl/lanes/pack.hpp>
 #include <rddl/values/ops.hpp>
+#include <rddl/values/pack_ops.hpp>
 
 #include <array>
 #include <cstddef>
@@ -13,18 +15,33 @@ namespace rddl {
 // The greatest magnitude of a moderate number.
 inline constexpr double moderate = 0x1p30;
 
-// Whether a real of a record is moderate; nan is not.
-template <class L>
-typename L::Bool is_moderate(const typename L::Real& value) {
-    return absolute(value) <= typename L::Real(moderate);
+namespace detail {
+
+template <class Bits>
+RDDL_INLINE Bits greater(const Bits& a, const Bits& b) {
+    if constexpr (SomePack<Bits>)
+        return Bits::each([](auto x, auto y) RDDL_INLINE_LAMBDA { return x < y ? y : x; }, a, b);
+    else
+        return a < b ? b : a;
+}
+// The bits of the greatest magnitude: bits grow with magnitudes, and those of nan are the greatest.
+template <class Real>
+RDDL_INLINE auto greatest_magnitude(const Real& value) {
+    return rddl::bits_of(absolute(value));
+}
+template <class Element, std::size_t n>
+RDDL_INLINE auto greatest_magnitude(const std::array<Element, n>& table) {
+    auto greatest = greatest_magnitude(table[0]);
+    for (std::size_t i = 1; i < n; ++i) greatest = greater(greatest, greatest_magnitude(table[i]));
+    return greatest;
 }
 
-// Whether all elements of a table are.
-template <class L, class Element, std::size_t n>
-typename L::Bool is_moderate(const std::array<Element, n>& table) {
-    typename L::Bool result{true};
-    for (const Element& element : table) result = result && is_moderate<L>(element);
-    return result;
+}  // namespace detail
+
+// Whether a real of a record is moderate, or all elements of a table are; nan is not.
+template <class L, class Table>
+typename L::Bool is_moderate(const Table& table) {
+    return real_of_bits(detail::greatest_magnitude(table)) <= typename L::Real(moderate);
 }
 
 }  // namespace rddl

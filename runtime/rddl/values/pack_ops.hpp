@@ -274,6 +274,16 @@ RDDL_INLINE Lanes<std::uint64_t, n> upper_halves(const Lanes<std::uint64_t, n>& 
     return Lanes<std::uint64_t, n>::each(
         [](auto x) RDDL_INLINE_LAMBDA { return simd::upper_halves(x); }, a);
 }
+constexpr std::uint32_t lower_halves(std::uint64_t a) {
+    return static_cast<std::uint32_t>(a);
+}
+template <int n>
+RDDL_INLINE Lanes<std::uint32_t, n> lower_halves(const Lanes<std::uint64_t, n>& a) {
+    Lanes<std::uint32_t, n> result;
+    for (int p = 0; p < result.part_count; ++p)
+        result.part[p] = simd::lower_halves(a.part[2 * p], a.part[2 * p + 1]);
+    return result;
+}
 constexpr std::uint64_t join_lower_halves(std::uint64_t low, std::uint64_t high) {
     return (low & 0xFFFFFFFF) | high << 32;
 }

@@ -1,0 +1,16 @@
+// Products of bools as numbers, and comparisons of such numbers with constants, are bools.
+//
+//     int(TURN[u, d]) * int(scratch.green[u])   int(TURN[u, d] && scratch.green[u])
+//     int(action.walk[p] != none) == 1          action.walk[p] != none
+//
+// So packs combine masks, where they would multiply registers full of zeros and ones.
+#pragma once
+
+#include "ir/ir.hpp"
+#include "passes/report.hpp"
+
+namespace rddlc::passes {
+
+ir::Program keep_bools(ir::Program program, Report& report);
+
+}  // namespace rddlc::passes
