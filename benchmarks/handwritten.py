@@ -81,6 +81,8 @@ REFERENCES = {
     "Pizza_rddlsim": Reference(OBJECTS, "0", "pizza", "Pizza"),
     "Intruders_Discrete": Reference(OBJECTS, "0", "intruders", "Intruders"),
     "SupplyChain_or": Reference(OBJECTS, "0", "supply_chain", "SupplyChain"),
+    "WildlifePreserve_p10_ippc2018": Reference(OBJECTS, "10", "wildlife_preserve", "WildlifePreserve"),
+    "Manufacturer_ippc2018": Reference(OBJECTS, "13", "manufacturer", "Manufacturer"),
     "Zombies_arcade": Reference(OBJECTS, "2", "zombies", "Zombies"),
 }
 LEAST_RATIO = 0.9

@@ -33,6 +33,9 @@ inline constexpr rddl::Index computer_count = 8;  // c1, c2, c3, c4, c5, c6, c7,
 // running, domain.rddl:24
 inline constexpr std::array<bool, computer_count> initial_running = {1, 1, 0, 1, 1, 1, 1, 1};
 
+// running-by-count, domain.rddl:40
+inline constexpr std::array<double, 2> running_by_count_ = {0.7, 0.95};
+
 // running-places, domain.rddl:40
 inline constexpr std::array<std::uint8_t, computer_count> running_places_ = {
     7, 0, 1, 2, 3, 4, 5, 6
@@ -91,7 +94,7 @@ struct Simulator {
                 [&] {
                     const auto number =
                         rddl::to_int(rddl::at_places<running_places_>(state.running, c));
-                    const auto term = 0.45 + 0.5 * (rddl::to_real(rddl::wrap_add(1, number)) * 0.5);
+                    const auto term = rddl::at_own(running_by_count_, c, number);
                     const auto term_2 = rddl::select(rddl::at(state.running, c), term, 0.05);
                     return rddl::sample::valid_bernoulli(several, {0, c}, term_2);
                 });

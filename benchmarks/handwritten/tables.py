@@ -402,6 +402,58 @@ def academic_advising_2018() -> list[str]:
     ]
 
 
+def wildlife_preserve() -> list[str]:
+    values = values_of("WildlifePreserve_p10_ippc2018", "10")
+    assert np.all(values["POACHER-REMEMBERS"]) and not np.any(values["ATTACK-WEIGHT_2"])
+    return [
+        array("never", values["ATTACK-WEIGHT_0"]),
+        array("once", values["ATTACK-WEIGHT_1"]),
+        array("reward", values["DEFENDER-REWARD"]),
+        array("penalty", values["DEFENDER-PENALTY"]),
+    ]
+
+
+def manufacturer() -> list[str]:
+    values = values_of("Manufacturer_ippc2018", "13")
+    assert [tuple(pair) for pair in np.argwhere(values["PROCESSED_TO"])] == [(0, 2), (0, 4), (1, 2), (2, 3), (2, 4)]
+    assert list(np.flatnonzero(values["have-factory"])) == [4] and not np.any(values["BUILD_FACTORY_COST"][[0, 1, 4]])
+    chances = values["PRICE_LEVEL_PROB"]  # of the next level, by level and trend
+    levels = len(chances)
+    assert np.all(np.transpose(chances)[:, ~np.tri(levels, k=1, dtype=bool)] == 0), "a level up at most"
+    limits = np.array([[chances[2, 3, t], chances[2, 3, t] + chances[3, 3, t]] for t in range(3)]).T
+    for (level, trend), _ in np.ndenumerate(chances[0]):
+        sums = np.cumsum(chances[:, level, trend])
+        assert level == 0 or sums[level - 1] == limits[0, trend], "the same step from each level"
+        assert level == levels - 1 or sums[level] == limits[1, trend]
+    change = values["PRICE_TREND_CHANGE_PROB"]
+    ones = np.ones_like(change)
+    first = np.stack([1.0 - change, change / 2, 0 * change])  # a lower trend, by the trend
+    second = np.stack([ones, change / 2 + (1.0 - change), change])
+    single = {
+        "marketing_bonus": "MARKETING_MANAGER_BONUS",
+        "lobbyist_bonus": "LOBBYIST_BONUS",
+        "manager_salary": "SALARY_PRODUCTION_MANAGER",
+        "marketing_salary": "SALARY_MARKETING_MANAGER",
+        "lobbyist_salary": "SALARY_LOBBYIST",
+        "manager_applies": "PROB_PRODUCTION_MANAGER_APPLIES",
+        "lobbyist_applies": "PROB_LOBBYIST_APPLIES",
+        "marketing_applies": "PROB_MARKETING_MANAGER_APPLIES",
+    }
+    return [
+        bit_sets("processed", [values["PROCESSED_TO"].ravel()]),
+        bit_sets("factories", [values["have-factory"]]),
+        integers("trends", values["price-trend"], "std::uint64_t"),
+        array("price", values["PRICE"]),
+        array("factor", values["PRICE_LEVEL_FACTOR"]),
+        array("level_limits", limits),
+        array("trend_limits", np.stack([first, second]).transpose(2, 0, 1)),
+        integers("build_cost", values["BUILD_FACTORY_COST"], "std::uint64_t"),
+        array("delay", values["PROB_CONSTRUCTION_DELAY_FACTORY"]),
+        number("levels", levels, "std::size_t"),
+        *(number(name, float(values[fluent])) for name, fluent in single.items()),
+    ]
+
+
 TABLES = (
     mountain_car,
     sysadmin,
@@ -428,6 +480,8 @@ TABLES = (
     mars_rover,
     earth_observation,
     academic_advising_2018,
+    wildlife_preserve,
+    manufacturer,
 )
 
 

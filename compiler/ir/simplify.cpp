@@ -291,8 +291,18 @@ class Simplifier {
              agree(Operator::Equal)});
     }
 
+    // int(b) == 1 where b is true, and int(b) == 0 where it is false.
+    std::optional<NodeId> bool_as_number() {
+        const auto* number = std::get_if<Convert>(&node(a_).form);
+        if (!number || node(number->operand).type != Scalar::Bool) return std::nullopt;
+        if (is_one(b_)) return number->operand;
+        if (is_zero(b_)) return builder_.apply(Operator::Not, {number->operand});
+        return std::nullopt;
+    }
+
     std::optional<NodeId> equality() {
         if (const auto order = sign_against_zero()) return order;
+        if (const auto value = bool_as_number()) return value;
         if (const auto same = same_signs()) return same;
         if (is(a_, true)) return b_;
         if (is(b_, true)) return a_;
@@ -305,6 +315,7 @@ class Simplifier {
     std::optional<NodeId> inequality() {
         if (const auto order = sign_against_zero()) return order;
         if (const auto same = same_signs()) return builder_.apply(Operator::Not, {*same});
+        if (const auto value = bool_as_number()) return builder_.apply(Operator::Not, {*value});
         if (is(a_, false)) return b_;
         if (is(b_, false)) return a_;
         if (is(a_, true)) return builder_.apply(Operator::Not, {b_});

@@ -200,6 +200,14 @@ TEST_F(BuilderTest, SimplifiesLogic) {
     EXPECT_EQ(w.apply(Operator::Equivalent, w.boolean(false), up()), w.apply(Operator::Not, up()));
 }
 
+TEST_F(BuilderTest, TestsBoolsInPlaceOfTheirNumbers) {
+    const NodeId number = w.builder().convert(up(), Scalar::Int);
+    EXPECT_EQ(w.apply(Operator::Equal, number, w.integer(1)), up());
+    EXPECT_EQ(w.apply(Operator::Equal, number, w.integer(0)), w.apply(Operator::Not, up()));
+    EXPECT_EQ(w.apply(Operator::NotEqual, number, w.integer(0)), up());
+    EXPECT_EQ(w.apply(Operator::NotEqual, number, w.integer(1)), w.apply(Operator::Not, up()));
+}
+
 TEST_F(BuilderTest, ComparesNumbersInPlaceOfSigns) {
     const NodeId sign = w.apply(Operator::Sign, level()), of_int = w.apply(Operator::Sign, count());
     EXPECT_EQ(text(w.apply(Operator::Equal, sign, w.integer(0))), "state.level == 0.0");

@@ -8,6 +8,7 @@
 #include "ir/action_bools.hpp"
 #include "ir/call.hpp"
 #include "ir/row_of_bools.hpp"
+#include "ir/shares.hpp"
 #include "support/match.hpp"
 
 #include <algorithm>
@@ -194,8 +195,13 @@ Expression Expressions::lower(const ir::Node&, const ir::Sample& sample) {
     return tree::call("rddl::sample::" + function, std::move(arguments));
 }
 
-Expression Expressions::lower(const ir::Node&, const ir::Discrete& discrete) {
-    return discrete_call(discrete, braces(weights_type(discrete), all_of(discrete.weights)));
+Expression Expressions::lower(const ir::Node& node, const ir::Discrete& discrete) {
+    return discrete_call(node, braces(weights_type(discrete), all_of(listed_weights(node))));
+}
+
+std::vector<ir::NodeId> Expressions::listed_weights(const ir::Node& draw) const {
+    const auto shares = ir::shares_of(unit_.program, unit_.properties, draw);
+    return shares ? shares->weights : std::get<ir::Discrete>(draw.form).weights;
 }
 
 std::string Expressions::weights_type(const ir::Discrete& discrete) {
@@ -203,9 +209,15 @@ std::string Expressions::weights_type(const ir::Discrete& discrete) {
            ">";
 }
 
-Expression Expressions::discrete_call(const ir::Discrete& discrete, Expression weights) {
-    const std::string function = discrete.normalise ? "unnormalised_discrete" : "discrete";
+// "rddl::sample::discrete_of_shares(context, {0, p}, total, weights)"
+Expression Expressions::discrete_call(const ir::Node& draw, Expression weights) {
+    const auto& discrete = std::get<ir::Discrete>(draw.form);
+    std::string function = discrete.normalise ? "unnormalised_discrete" : "discrete";
     tree::Expressions arguments = place_of_draw(discrete.place);
+    if (const auto shares = ir::shares_of(unit_.program, unit_.properties, draw)) {
+        function += "_of_shares";
+        arguments.push_back(lower(shares->total));
+    }
     arguments.push_back(std::move(weights));
     return tree::call("rddl::sample::" + function, std::move(arguments));
 }
@@ -300,6 +312,8 @@ std::optional<Expression> Expressions::count_of_true(const ir::Node& binder) {
 }
 
 ir::NodeId Expressions::bound_value(const ir::Node& binder) const {
+    if (const auto shares = ir::shares_of(unit_.program, unit_.properties, binder))
+        return shares->weights.front();
     const ir::Reduce* sum = over_true(binder);
     if (!sum) return ir::operands_of(binder).front();
     return std::get<ir::Select>(unit_.program[sum->body].form).then_value;
@@ -311,6 +325,8 @@ std::string Expressions::binder_function(const ir::Node& binder) {
         const std::string function = "rddl::" + function_of(reduce->op);
         return several_ ? function : function + "<" + type(binder.type) + ">";
     }
+    if (ir::shares_of(unit_.program, unit_.properties, binder))
+        return "rddl::sample::discrete_of_shares_over";
     const bool normalises = std::get<ir::DiscreteOver>(binder.form).normalise;
     return normalises ? "rddl::sample::unnormalised_discrete_over" : "rddl::sample::discrete_over";
 }
@@ -330,6 +346,8 @@ tree::Expressions Expressions::binder_arguments(const ir::Node& binder) {
     const auto& discrete = std::get<ir::DiscreteOver>(binder.form);
     tree::Expressions arguments = place_of_draw(discrete.place);
     arguments.push_back(word(unit_.size_of(unit_.program[discrete.variable])));
+    if (const auto shares = ir::shares_of(unit_.program, unit_.properties, binder))
+        arguments.push_back(lower(shares->total));
     return arguments;
 }
 

@@ -71,7 +71,9 @@ class Expressions {
     // The return type of a lambda: an int constant must not become C++'s int.
     tree::Expression result(ir::NodeId id);
     // One call of a draw from listed weights, given their array.
-    tree::Expression discrete_call(const ir::Discrete& discrete, tree::Expression weights);
+    tree::Expression discrete_call(const ir::Node& draw, tree::Expression weights);
+    // The weights, or those that the draw divides by their total.
+    std::vector<ir::NodeId> listed_weights(const ir::Node& draw) const;
     std::string weights_type(const ir::Discrete& discrete);
 
     // A named node is lowered to its name from then on.

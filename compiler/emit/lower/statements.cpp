@@ -374,7 +374,7 @@ void FunctionBody::prepare(Use use, ir::NodeId id) {
     const ir::Node& node = program()[id];
     if (is_block(id) || is_binder(node)) return;
     while (!reads_well(use, id)) {
-        if (const auto* draw = std::get_if<ir::Discrete>(&node.form)) return prepare_weights(*draw);
+        if (std::holds_alternative<ir::Discrete>(node.form)) return prepare_weights(node);
         if (!name_longest_part(id)) return;
     }
 }
@@ -403,8 +403,8 @@ void FunctionBody::prepare_branch(const ir::Select& select) {
     if (width > longest_condition) name_value(select.condition);
 }
 
-void FunctionBody::prepare_weights(const ir::Discrete& discrete) {
-    for (ir::NodeId weight : discrete.weights)
+void FunctionBody::prepare_weights(const ir::Node& draw) {
+    for (const ir::NodeId weight : expressions_.listed_weights(draw))
         prepare({width(tree::element(tree::word("weights"), tree::word("0"))) + assignment_width},
                 weight);
 }
@@ -484,8 +484,7 @@ tree::Expression FunctionBody::value(Use use, ir::NodeId id) {
     const ir::Node& node = program()[id];
     if (is_binder(node) && !expressions_.is_named(id))
         return expressions_.lower_binder(node, [&](ir::NodeId body) { return returning(body, 1); });
-    const auto* draw = std::get_if<ir::Discrete>(&node.form);
-    if (draw && !fits(use, id)) return discrete(*draw);
+    if (std::holds_alternative<ir::Discrete>(node.form) && !fits(use, id)) return discrete(node);
     return use.returns ? expressions_.result(id) : expressions_.lower(id);
 }
 
@@ -511,16 +510,17 @@ tree::Expression FunctionBody::branch(const ir::Select& select) {
 }
 
 // Too many weights for one line are set one by one.
-tree::Expression FunctionBody::discrete(const ir::Discrete& discrete) {
+tree::Expression FunctionBody::discrete(const ir::Node& draw) {
     const std::string name = expressions_.claim("weights");
-    const std::string type = expressions_.weights_type(discrete);
+    const std::string type = expressions_.weights_type(std::get<ir::Discrete>(draw.form));
+    const std::vector<ir::NodeId> weights = expressions_.listed_weights(draw);
     statements_.push_back({tree::Expression{tree::Declared{type, name}}});
-    for (std::size_t k = 0; k < discrete.weights.size(); ++k) {
+    for (std::size_t k = 0; k < weights.size(); ++k) {
         tree::Expression weight = tree::element(tree::word(name), tree::number(k));
         const Use use{width(weight) + assignment_width};
-        statements_.push_back({tree::Assign{std::move(weight), value(use, discrete.weights[k])}});
+        statements_.push_back({tree::Assign{std::move(weight), value(use, weights[k])}});
     }
-    return expressions_.discrete_call(discrete, tree::word(name));
+    return expressions_.discrete_call(draw, tree::word(name));
 }
 
 template <class Add>

@@ -50,7 +50,7 @@ class FunctionBody {
     void prepare(Use use, ir::NodeId id);
     bool reads_well(Use use, ir::NodeId id);
     void prepare_branch(const ir::Select& select);
-    void prepare_weights(const ir::Discrete& discrete);
+    void prepare_weights(const ir::Node& draw);
     void name_parts_in_order(ir::NodeId id);
     bool name_longest_part(ir::NodeId id);
     void name_value(ir::NodeId id);
@@ -61,7 +61,7 @@ class FunctionBody {
     // A value that has been prepared.
     tree::Expression value(Use use, ir::NodeId id);
     tree::Expression branch(const ir::Select& select);
-    tree::Expression discrete(const ir::Discrete& discrete);
+    tree::Expression discrete(const ir::Node& draw);
     // The statements that `add` adds, deeper by so many levels.
     template <class Add>
     tree::Block inner(std::size_t levels, Add&& add);

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <iterator>
 #include <map>
 #include <optional>
 #include <set>
@@ -32,10 +33,13 @@ class BitSetting {
 
     ir::Program run() && {
         for (ir::Definition& definition : program_.step) change(definition);
+        separate_rows(program_.reward);
         return ir::collect_garbage(std::move(program_));
     }
 
   private:
+    // ------------------------------------------------------------- rows that are computed whole
+
     void change(ir::Definition& definition) {
         auto* const outermost = ir::only_statement<ir::Loop>(definition.body);
         if (!outermost) return;
@@ -49,7 +53,7 @@ class BitSetting {
                             ir::is_droppable(builder_.properties(store.value)) &&
                             ir::is_known_before(program_, store.value, {store.target});
         if (!may_be) return;
-        target_ = store.target;
+        name_ = program_[store.target].name;
         span_ = definition.span;
         element_ = rows.back();
         rows.pop_back();
@@ -61,6 +65,35 @@ class BitSetting {
             {{ir::Spread{store.target, {store.indices.begin(), store.indices.end() - 1}, *word}}},
             rows);
         ++report_["rows of bools whose bits are set"];
+    }
+
+    // ------------------------------------------------------------------ rows inside expressions
+
+    // An exists of each element gets a row of its own, filled before.
+    void separate_rows(ir::Computation& reward) {
+        name_ = "reward";
+        span_ = reward.span;
+        ir::Block before;
+        std::map<ir::NodeId, ir::NodeId> done;
+        reward.value = ir::replace_in(builder_, reward.value, done,
+                                      [&](ir::NodeId id) { return element_of_row(id, before); });
+        reward.body.insert(reward.body.end(), std::make_move_iterator(before.begin()),
+                           std::make_move_iterator(before.end()));
+    }
+    std::optional<ir::NodeId> element_of_row(ir::NodeId id, ir::Block& before) {
+        const ir::Properties properties = builder_.properties(id);
+        if (!std::holds_alternative<ir::Reduce>(program_[id].form) ||
+            properties.free_variables.size() != 1 || !ir::is_droppable(properties))
+            return std::nullopt;
+        element_ = properties.free_variables.front();
+        if (size() < least_bits || size() > bits_of_an_int) return std::nullopt;
+        const auto word = word_of_exists(id);
+        if (!word) return std::nullopt;
+        const ir::BufferId row = builder_.tables().scratch(name_ + "-row", ir::Scalar::Bool,
+                                                           properties.range, {element_}, span_);
+        before.push_back({ir::Spread{row, {}, *word}});
+        ++report_["rows of bools whose bits are set"];
+        return builder_.load(row, {builder_.index(element_)});
     }
 
     // ------------------------------------------------------------------------------- the row
@@ -160,7 +193,7 @@ class BitSetting {
             bits.emplace_back(
                 static_cast<std::int64_t>(i < size() ? std::uint64_t{1} << i : std::uint64_t{0}));
         const ir::BufferId table =
-            builder_.tables().list(program_[target_].name + "-bit", ir::Scalar::Int, bits, span_);
+            builder_.tables().list(name_ + "-bit", ir::Scalar::Int, bits, span_);
         return builder_.load(table, {value});
     }
 
@@ -200,8 +233,8 @@ class BitSetting {
     Report& report_;
     ir::Builder builder_;
 
-    // Members of the loop at hand.
-    ir::BufferId target_ = {};
+    // Members of the row at hand.
+    std::string name_;
     Span span_;
     ir::VariableId element_ = {};  // the innermost one: its objects are the bits
     bool sets_bits_ = false;       // an int of an object does

@@ -8,7 +8,11 @@
 //                  select(action.roll[1], seen-bit[scratch.face[1]], 0))))
 //
 // So each die is read once, and not for each number, and a condition that is the same for all
-// numbers is tested once. Rows have at most 64 elements.
+// numbers is tested once. Rows have at most 64 elements. An exists in the reward gets a row:
+//
+//     before:  sum[a in area](select(exists[t in thief](scratch.robs[t] == a), -5.0, 2.0))
+//     after:   spread scratch.reward-row = bit_or(reward-bit[scratch.robs[0]], ...)
+//              sum[a in area](select(scratch.reward-row[a], -5.0, 2.0))
 #pragma once
 
 #include "ir/ir.hpp"

@@ -1,15 +1,20 @@
 #include "passes/aggregations/skip_zero_terms.hpp"
 
+#include "ir/analysis.hpp"
 #include "ir/rewrite.hpp"
 #include "ir/row_of_bools.hpp"
 
+#include <optional>
 #include <utility>
+#include <vector>
 
 namespace rddlc::passes {
 namespace {
 
 // Operations (Properties::cost) that cost more than a mispredicted branch.
 constexpr double expensive = 20;
+// Operations that are worth computing before a loop.
+constexpr double worth_a_name = 4;
 
 // The bool that a number is made of; nothing if it is another number.
 std::optional<ir::NodeId> bool_of(const ir::Program& program, ir::NodeId id) {
@@ -18,27 +23,56 @@ std::optional<ir::NodeId> bool_of(const ir::Program& program, ir::NodeId id) {
     return convert->operand;
 }
 
-// Also cheap ones if emitted code need not even look at them.
-bool may_be_skipped(const ir::Properties& properties, bool is_by_row) {
-    return (is_by_row || properties.cost >= expensive) && properties.finite &&
-           ir::is_droppable(properties);
+// A product as a bool and what it is where the bool holds: nothing stands for 1.
+struct Choice {
+    ir::NodeId counts;
+    std::optional<ir::NodeId> value;
+};
+
+// The bool is a factor of the term, or of one of its factors, also of a product of ints.
+std::optional<Choice> choice_of(ir::Builder& builder, ir::NodeId term) {
+    const ir::Program& program = builder.program();
+    if (const auto counts = bool_of(program, term)) return Choice{*counts, std::nullopt};
+    const ir::Node node = program[term];
+    if (const auto* convert = std::get_if<ir::Convert>(&node.form)) {
+        if (program[convert->operand].type != ir::Scalar::Int) return std::nullopt;
+        auto choice = choice_of(builder, convert->operand);
+        if (choice && choice->value) choice->value = builder.convert(*choice->value, node.type);
+        return choice;
+    }
+    const auto* product = std::get_if<ir::Apply>(&node.form);
+    if (!product || product->op != Operator::Multiply) return std::nullopt;
+    const ir::NodeId a = product->operands.front(), b = product->operands.back();
+    if (const auto counts = bool_of(program, a)) return Choice{*counts, b};
+    if (const auto counts = bool_of(program, b)) return Choice{*counts, a};
+    for (const bool is_first : {true, false}) {
+        const auto choice = choice_of(builder, is_first ? a : b);
+        if (!choice) continue;
+        if (!choice->value) return Choice{choice->counts, is_first ? b : a};
+        return Choice{choice->counts,
+                      builder.apply(Operator::Multiply, {is_first ? *choice->value : a,
+                                                         is_first ? b : *choice->value})};
+    }
+    return std::nullopt;
+}
+
+// Also cheap ones if emitted code need not even look at them, or computes them before the sum.
+bool may_be_skipped(const ir::Properties& properties, bool is_by_row, bool is_invariant) {
+    const bool is_worth_it = is_by_row || properties.cost >= expensive ||
+                             (is_invariant && properties.cost >= worth_a_name);
+    return is_worth_it && properties.finite && ir::is_droppable(properties);
 }
 
 // The term as a choice between itself and zero.
 std::optional<ir::NodeId> chosen(ir::Builder& builder, const ir::Reduce& sum) {
-    const ir::NodeId term = sum.body;
-    const auto* product = std::get_if<ir::Apply>(&builder.program()[term].form);
-    if (!product || product->op != Operator::Multiply) return std::nullopt;
-    const std::vector<ir::NodeId> factors = product->operands;
-    for (const std::size_t k : {0, 1}) {
-        const auto counts = bool_of(builder.program(), factors[k]);
-        if (!counts) continue;
-        const bool is_by_row =
-            !sum.bounds && ir::is_in_row_of_bools(builder.program(), *counts, sum.variable);
-        if (may_be_skipped(builder.properties(factors[1 - k]), is_by_row))
-            return builder.select(*counts, factors[1 - k], builder.constant(0.0));
-    }
-    return std::nullopt;
+    const auto choice = choice_of(builder, sum.body);
+    if (!choice || !choice->value) return std::nullopt;
+    const ir::Properties& properties = builder.properties(*choice->value);
+    const bool is_by_row =
+        !sum.bounds && ir::is_in_row_of_bools(builder.program(), choice->counts, sum.variable);
+    const bool is_invariant = !ir::depends_on_any(properties, {&sum.variable, 1});
+    if (!may_be_skipped(properties, is_by_row, is_invariant)) return std::nullopt;
+    return builder.select(choice->counts, *choice->value, builder.constant(0.0));
 }
 
 }  // namespace

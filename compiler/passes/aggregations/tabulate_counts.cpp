@@ -19,7 +19,7 @@ namespace {
 constexpr double largest_range = 256;
 // Operations (Properties::cost) that are worth loading an element of a table instead, and how many
 // elements each of them is worth.
-constexpr double worth_a_count_table = 8;
+constexpr double worth_a_count_table = 6;
 constexpr double elements_for_an_operation = 64;
 // The same where a test comes first whether the table has the element.
 constexpr double worth_a_tested_table = 16;

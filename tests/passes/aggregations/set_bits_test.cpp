@@ -45,6 +45,19 @@ TEST(SetBits, LooksUpTheBitOfEachInt) {
     EXPECT_TRUE(table_text(program, "seen-bit").starts_with("seen-bit[20]: int = {1 2 4 8 "));
 }
 
+TEST(SetBits, GivesTheRewardARow) {
+    Problem problem = dice("seen(?o)");
+    problem.reward = "sum_{?o : obj} [if (" + rolled + ") then 2.5 else 1.0]";
+    passes::Report report;
+    const ir::Program program = valid(passes::set_bits(grounded_with_many(problem), report));
+    EXPECT_EQ(report["rows of bools whose bits are set"], 1);
+    const std::string text = ir::print(program);
+    EXPECT_NE(text.find("spread scratch.reward-row = bit_or(select(action.roll[0], "
+                        "reward-bit[scratch.face[0]], 0), "),
+              text.npos);
+    EXPECT_NE(text.find("select(scratch.reward-row[o], "), text.npos) << text;
+}
+
 TEST(SetBits, CombinesWords) {
     EXPECT_EQ(with_bits("if (stop) then false else " + rolled + " | seen(?o)"),
               "select(action.stop, 0, bit_or(" + rolled_bits + ", bits(state.seen, 0)))\n");

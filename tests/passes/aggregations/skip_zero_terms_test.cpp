@@ -19,6 +19,15 @@ TEST(SkipZeroTerms, ComputesOnlyTermsThatCount) {
               "power(sum[q in obj](state.v[q] * state.v[q]), 0.5), 0.0))");
 }
 
+// Factors that the sum does not change are computed before it, also if the bool stands inside.
+TEST(SkipZeroTerms, FindsFactorsThatTheSumDoesNotChange) {
+    EXPECT_EQ(
+        skipping("sum_{?o : obj} [p(?o) * x * (x + 0.5) * (2.0 - x)]"),
+        "sum[o in obj](select(state.p[o], state.x * (state.x + 0.5) * (2.0 - state.x), 0.0))");
+    EXPECT_EQ(skipping("sum_{?o : obj} [p(?o) * 3 * cos[x]]"),
+              "sum[o in obj](select(state.p[o], 3.0 * cos(state.x), 0.0))");
+}
+
 // Emitted code visits the true bools of a row alone, so that cheap terms are also worth it.
 TEST(SkipZeroTerms, ComputesAlsoCheapTermsOfRows) {
     const auto skipping_rows = [](const std::string& cpf_of_x) {

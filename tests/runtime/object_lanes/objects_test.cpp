@@ -298,7 +298,7 @@ void expect_draws_one_by_one() {
     Context<Scalar> context = context_of_step(7), other = context;
     Grid<bool> on;
     Grid<double> level, wait;
-    Grid<std::int64_t> kind, other_kind;
+    Grid<std::int64_t> kind, share, other_kind;
     const auto weight_by = [](const auto& p) {
         return [p](Index i) {
             return i == 0 ? p : (1.0 - p) * 0.5;
@@ -314,6 +314,8 @@ void expect_draws_one_by_one() {
         elements(wait, x) = sample::exponential(several, {5, x}, 2.0);
         const auto weight = weight_by(at(from.level, x) + 0.0);
         elements(kind, x) = sample::discrete_over(several, {6, x}, 3, weight);
+        elements(share, x) = sample::discrete_of_shares_over(several, {6, x}, 3,
+                                                             at(from.level, x) * 0.0 + 1.0, weight);
         elements(other_kind, x) = sample::unnormalised_discrete_over(several, {7, x}, 2, weight);
     });
     for (Index i = 0; i < objects; ++i) {
@@ -324,6 +326,7 @@ void expect_draws_one_by_one() {
         EXPECT_EQ(level[r][c], sample::normal(other, {4, i, 3}, p, 2.0));
         EXPECT_EQ(wait[r][c], sample::exponential(other, {5, i}, 2.0));
         EXPECT_EQ(kind[r][c], sample::discrete_over(other, {6, i}, 3, weight_by(p)));
+        EXPECT_EQ(share[r][c], kind[r][c]);
         EXPECT_EQ(other_kind[r][c],
                   sample::unnormalised_discrete_over(other, {7, i}, 2, weight_by(p)));
     }

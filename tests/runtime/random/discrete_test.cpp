@@ -111,6 +111,25 @@ TEST(Interval, IsTheNumberOfThresholdsThatTheUniformNumberReaches) {
     }
 }
 
+constexpr std::array<std::array<std::array<double, 6>, 2>, 2> mostly_decided = {{
+    {{{0.0, 0.0, 0.2, 0.9, 1.0, 1.0}, {0.0, 0.0, 0.0, 0.0, 0.0, 0.3}}},
+    {{{1.0, 1.0, 1.0, 1.0, 1.0, 1.0}, {0.0, 0.5, 0.5, 1.0, 1.0, 1.5}}},
+}};
+
+TEST(Interval, LooksUpThoseThresholdsThatNumbersDecide) {
+    static_assert(sample::detail::Intervals<mostly_decided>::most_open == 2);
+    static_assert(sample::detail::Intervals<mostly_decided>::has_few_open);
+    static_assert(!sample::detail::Intervals<many_thresholds>::has_few_open);
+    Context<Scalar> context{stream_key(5, 0, 0), 1, {}};
+    for (int i = 0; i < 400; ++i) {
+        const double u = uniform_at(context, {0, i});
+        const std::int64_t a = i % 2, b = i / 2 % 2;
+        const auto& row = mostly_decided[static_cast<std::size_t>(a)][static_cast<std::size_t>(b)];
+        EXPECT_EQ(sample::interval<mostly_decided>(context, {0, i}, a, b),
+                  std::ranges::count_if(row, [&](double threshold) { return threshold <= u; }));
+    }
+}
+
 // The draws of places that stand alone, or among those of other sites, have the same numbers.
 TEST(LonePlace, ChangesNoNumber) {
     constexpr int n = 16;
@@ -188,6 +207,44 @@ TEST(UnnormalisedDiscrete, FollowsItsWeights) {
                            return sample::unnormalised_discrete(context, place, weights);
                        }),
                        {0.0, 0.375, 0.125, 0.0, 0.5, 0.0});
+}
+
+// The weights divided by their total, and the total: both draws are the same, with their faults.
+void expect_shares(std::array<double, 4> weights, double total, Place place) {
+    Context<Scalar> context{stream_key(5, 0, 0), 1, {}}, other = context;
+    const std::int64_t draw = sample::discrete_of_shares(context, place, total, weights);
+    for (double& weight : weights) weight /= total;
+    EXPECT_EQ(draw, sample::discrete(other, place, weights)) << total;
+    EXPECT_EQ(context.fault.kind, other.fault.kind) << total;
+    EXPECT_TRUE(context.fault.value == other.fault.value || std::isnan(context.fault.value));
+}
+
+TEST(DiscreteOfShares, IsDiscreteOfTheQuotients) {
+    Context<Scalar> context{stream_key(5, 0, 0), 1, {}};
+    for (int i = 0; i < 2000; ++i) {
+        const auto number = [&](std::uint32_t site) {
+            return uniform_at(context, {site, i});
+        };
+        const std::array<double, 4> weights{number(1), i % 3 == 0 ? 0.0 : number(2) * 1e-5,
+                                            number(3), number(4) * 300};
+        expect_shares(weights, weights[0] + weights[1] + weights[2] + weights[3], {0, i});
+        // A limit that is the number of the draw, or its neighbour.
+        const double u = number(0), scale = 1e-3 + number(5) * 50;
+        for (const double first : {u, std::nextafter(u, 0.0), std::nextafter(u, 1.0)})
+            expect_shares({first * scale, 0.0, (1 - first) * scale, 0.0}, scale, {0, i});
+    }
+}
+
+TEST(DiscreteOfShares, FaultsLikeTheQuotients) {
+    for (const double total : {0.0, -0.0, 1e-310, 3.0, 4.0, 4.00001, 4.1, -4.0, infinity, nan})
+        for (int i = 0; i < 20; ++i) {
+            expect_shares({1.0, 1.0, 0.0, 2.0}, total, {0, i});
+            expect_shares({0.0, 0.0, 0.0, 0.0}, total, {0, i});
+        }
+    for (int i = 0; i < 20; ++i) {
+        expect_shares({1e-310, 2e-310, 0.0, 1e-310}, 4e-310, {0, i});
+        expect_shares({1e308, 0.0, 5e307, 0.0}, 1.5e308, {0, i});
+    }
 }
 
 TEST(UnnormalisedDiscrete, ChecksItsWeights) {

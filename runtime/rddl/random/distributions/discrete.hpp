@@ -10,7 +10,9 @@
 #include <rddl/values/context.hpp>
 #include <rddl/values/ops.hpp>
 
+#include <algorithm>
 #include <array>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -65,6 +67,49 @@ typename L::Int discrete_over(Context<L>& context, SomePlace place, Index n, Wei
     return select(valid && sums_to_one && chosen < n, chosen, Int{0});
 }
 
+namespace detail {
+
+// Whether a condition holds where values are used.
+template <class R>
+RDDL_INLINE bool holds_where_used(const Context<ScalarOf<R>>&, bool condition) {
+    return condition;
+}
+template <class L, int n>
+RDDL_INLINE bool holds_where_used(const Context<L>& context, const Mask<n>& condition) {
+    return all(condition || !context.active);
+}
+
+}  // namespace detail
+
+// discrete_over() with the probabilities weight(i) / total, where no weight is negative. Sums of
+// weights are compared with U * total, without a division for each. Where rounding might decide,
+// or where the weights do not sum to the total, the probabilities are added after all.
+template <class L, class Weight, class SomePlace = Place>
+RDDL_INLINE typename L::Int discrete_of_shares_over(Context<L>& context, SomePlace place, Index n,
+                                                    typename L::Real total, Weight&& weight) {
+    using Int = typename L::Int;
+    using Real = typename L::Real;
+    using Number = typename L::Element;
+    using Limits = std::numeric_limits<Number>;
+    // More than 2 n + 4 roundings, of which each is at most epsilon / 2.
+    const Real rounding = total * Real{static_cast<Number>(2 * n + 8) * Limits::epsilon()};
+    const Real limit = uniform_at(context, place) * total;
+    const Real low = limit - rounding, high = limit + rounding;
+    Real sum{0};
+    Int chosen{0}, at_most_chosen{0};
+    for (Index i = 0; i < n; ++i) {
+        sum = sum + weight(i);
+        chosen = wrap_add(chosen, to_int(sum <= low));
+        at_most_chosen = wrap_add(at_most_chosen, to_int(sum <= high));
+    }
+    const auto is_certain = chosen == at_most_chosen && chosen < Int{n} &&
+                            absolute(sum - total) < total * Real{1e-6} &&
+                            total > Real{Limits::min() / Limits::epsilon()};
+    if (detail::holds_where_used(context, is_certain)) [[likely]]
+        return select(is_certain, chosen, Int{0});
+    return discrete_over(context, place, n, [&](Index i) { return weight(i) / total; });
+}
+
 // The same with weights of any positive, finite sum. They are evaluated twice; the second time,
 // the last index of positive weight with no more than U * sum before it is chosen. Of the weights,
 // the first nan, or else the least, is what a fault names.
@@ -112,6 +157,54 @@ struct RowLength<std::array<std::array<T, m>, n>> : RowLength<std::array<T, m>> 
 
 inline constexpr Index most_counted = 8;  // longer rows are searched
 
+// The table with f(row) in place of each row, its last dimension.
+template <class T, std::size_t n, class Function>
+constexpr auto mapped_rows(const std::array<T, n>& table, const Function& f) {
+    if constexpr (std::is_floating_point_v<T>) {
+        return f(table);
+    } else {
+        std::array<decltype(mapped_rows(table[0], f)), n> rows{};
+        for (std::size_t i = 0; i < n; ++i) rows[i] = mapped_rows(table[i], f);
+        return rows;
+    }
+}
+
+// Rows of sorted thresholds of which some are at most any number in [0, 1), and others more than
+// any.
+template <const auto& thresholds>
+struct Intervals {
+    using Table = std::remove_cvref_t<decltype(thresholds)>;
+    static constexpr Index size = RowLength<Table>::value;
+    static constexpr Index steps =
+        size <= most_counted ? size : std::bit_width(static_cast<std::size_t>(size));
+
+    static constexpr bool is_decided(double threshold) { return threshold <= 0 || threshold >= 1; }
+    // How many number in [0, 1) decide, at most.
+    static constexpr std::size_t most_open = [] {
+        std::size_t most = 0;
+        mapped_rows(thresholds, [&](const auto& row) {
+            std::size_t open = 0;
+            for (const double threshold : row) open += !is_decided(threshold);
+            return most = std::max(most, open);
+        });
+        return most;
+    }();
+    // Their tables are worth it where fewer elements are looked up.
+    static constexpr bool has_few_open = static_cast<Index>(most_open) + 1 < steps;
+
+    static constexpr auto reached = mapped_rows(thresholds, [](const auto& row) {
+        return static_cast<std::int64_t>(
+            std::count_if(row.begin(), row.end(), [](double each) { return each <= 0; }));
+    });
+    static constexpr auto open = mapped_rows(thresholds, [](const auto& row) {
+        std::array<double, most_open> few{};
+        few.fill(1.0);
+        std::copy_if(row.begin(), row.end(), few.begin(),
+                     [](double each) { return !is_decided(each); });
+        return few;
+    });
+};
+
 }  // namespace detail
 
 // How many thresholds of a row are at most U: an index with as many probabilities as there are
@@ -119,11 +212,21 @@ inline constexpr Index most_counted = 8;  // longer rows are searched
 template <const auto& thresholds, class L, class SomePlace = Place, class... Row>
 RDDL_INLINE typename L::Int interval(Context<L>& context, SomePlace place, const Row&... row) {
     using Int = typename L::Int;
-    constexpr Index size = detail::RowLength<std::remove_cvref_t<decltype(thresholds)>>::value;
+    using Intervals = detail::Intervals<thresholds>;
+    constexpr Index size = Intervals::size;
     const auto u = uniform_at(context, place);
     if constexpr (size > detail::most_counted && sizeof...(row) == 0)
         if constexpr (detail::GuideTable<thresholds>::parts > 0)
             return detail::GuideTable<thresholds>::template count<Int>(u);
+    if constexpr (sizeof...(Row) > 0 && Intervals::has_few_open) {
+        Int count{at(Intervals::reached, in_range(context, row)...)};
+        for (std::size_t i = 0; i < Intervals::most_open; ++i) {
+            const auto threshold =
+                at(Intervals::open, in_range(context, row)..., static_cast<Index>(i));
+            count = wrap_add(count, to_int(threshold <= u));
+        }
+        return count;
+    }
     const auto is_at_most = [&](const auto& i) RDDL_INLINE_LAMBDA {
         return at(thresholds, in_range(context, row)..., i) <= u;
     };
@@ -144,6 +247,14 @@ template <class L, std::size_t n, class SomePlace = Place>
 typename L::Int discrete(Context<L>& context, SomePlace place,
                          const std::array<typename L::Real, n>& weights) {
     return discrete_over(context, place, n, [&weights](Index i) { return weights[i]; });
+}
+
+template <class L, std::size_t n, class SomePlace = Place>
+RDDL_INLINE typename L::Int discrete_of_shares(Context<L>& context, SomePlace place,
+                                               typename L::Real total,
+                                               const std::array<typename L::Real, n>& weights) {
+    return discrete_of_shares_over(context, place, n, total,
+                                   [&weights](Index i) { return weights[i]; });
 }
 
 template <class L, std::size_t n, class SomePlace = Place>
