@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <optional>
 #include <set>
@@ -20,7 +21,8 @@ constexpr double most_combinations = 256;    // of the ints
 constexpr double most_elements = 1 << 14;    // of a table
 constexpr double most_of_program = 1 << 18;  // elements of all tables
 constexpr std::size_t most_weights = 64;
-constexpr double greatest_uniform = 1 - 0x1p-52;
+template <class Real>
+constexpr double greatest_uniform = 1.0 - std::numeric_limits<Real>::epsilon();  // of draws
 constexpr double sum_tolerance = 1.001e-5;  // that of rddl::sample::discrete_over
 
 // An int of a small range, or a bool, that weights depend on.
@@ -45,24 +47,27 @@ struct Rows {
     std::size_t length() const { return thresholds.front().size(); }
 
     // Leaves out thresholds at the end that no number reaches.
-    void trim() {
-        const auto is_never_reached = [](const std::vector<double>& row) {
-            return row.back() > greatest_uniform;
+    void trim(RealType real) {
+        const double greatest =
+            real == RealType::Float ? greatest_uniform<float> : greatest_uniform<double>;
+        const auto is_never_reached = [greatest](const std::vector<double>& row) {
+            return row.back() > greatest;
         };
         while (length() > 0 && std::ranges::all_of(thresholds, is_never_reached))
             for (std::vector<double>& row : thresholds) row.pop_back();
     }
 };
 
-// The sums of weights so far; nothing if a draw from them faults.
+// The sums of weights so far, as a step adds them; nothing if a draw from them faults.
+template <class Real>
 std::optional<std::vector<double>> thresholds_of(const std::vector<double>& weights) {
     std::vector<double> sums;
-    double total = 0;
+    Real total = 0;
     for (const double weight : weights) {
         if (!(weight >= 0)) return std::nullopt;
-        sums.push_back(total += weight);
+        sums.push_back(total += static_cast<Real>(weight));
     }
-    if (!(std::abs(total - 1) <= sum_tolerance)) return std::nullopt;
+    if (!(std::abs(total - 1) <= static_cast<Real>(sum_tolerance))) return std::nullopt;
     return sums;
 }
 
@@ -233,7 +238,8 @@ class ThresholdTabulation {
                 std::vector<double> row;
                 for (const auto& of_objects : of_weights)
                     row.push_back(std::get<double>(of_objects[object]));
-                auto thresholds = thresholds_of(row);
+                auto thresholds = program_.real == RealType::Float ? thresholds_of<float>(row)
+                                                                   : thresholds_of<double>(row);
                 if (!thresholds) return std::nullopt;
                 rows.thresholds.push_back(std::move(*thresholds));
             }
@@ -271,7 +277,7 @@ class ThresholdTabulation {
 
     ir::NodeId interval_among(ir::Place place, Rows rows, const Keys& keys, std::size_t weights) {
         ++report_["draws made searches among thresholds"];
-        rows.trim();
+        rows.trim(program_.real);
         const ir::NodeId zero = builder_.constant(std::int64_t{0});
         if (rows.length() == 0) return zero;
         std::vector<std::int64_t> shape;
@@ -379,7 +385,6 @@ class ThresholdTabulation {
 }  // namespace
 
 ir::Program tabulate_thresholds(ir::Program program, Report& report) {
-    if (program.real == RealType::Float) return program;
     return ThresholdTabulation(std::move(program), report).run();
 }
 

@@ -13,7 +13,7 @@
 //                                       =>
 //     sample interval@0[c](thresholds-3[select(state.wet, 0, 1)])
 //
-// Reals of 32 bits have other sums, so their draws stay as they are.
+// The sums are those of reals of 32 bits in programs that compute with them.
 #pragma once
 
 #include "ir/ir.hpp"

@@ -88,6 +88,27 @@ template <std::int64_t count>
     return result;
 #endif
 }
+// Looks up entries of a table of `count` values, which registers may be able to hold.
+template <std::int64_t count>
+[[gnu::always_inline]] inline Floats look_up(const float* table, Ints first, Ints second) {
+#ifdef RDDL_SIMD_AVX512
+    if constexpr (count <= 32) {
+        const __m512i lower_halves =
+            _mm512_set_epi32(30, 28, 26, 24, 22, 20, 18, 16, 14, 12, 10, 8, 6, 4, 2, 0);
+        const __m512i places =
+            _mm512_permutex2var_epi32((__m512i)first, lower_halves, (__m512i)second);
+        constexpr int first_half = count < 16 ? count : 16, second_half = count - first_half;
+        const Floats low = _mm512_maskz_loadu_ps((1 << first_half) - 1, table);
+        if constexpr (second_half == 0) {
+            return _mm512_maskz_permutexvar_ps(0xFFFF, places, low);
+        } else {
+            const Floats high = _mm512_maskz_loadu_ps((1 << second_half) - 1, table + first_half);
+            return _mm512_permutex2var_ps(low, places, high);
+        }
+    }
+#endif
+    return gather(table, first, second);
+}
 [[gnu::always_inline]] inline Ints gather(const std::int64_t* from, Ints indices) {
     return reinterpret<Ints>(gather(reinterpret_cast<const double*>(from), indices));
 }

@@ -573,11 +573,12 @@ RDDL_INLINE auto gather(const double* elements, const Lanes<std::int64_t, n>& in
         [elements](auto x) RDDL_INLINE_LAMBDA { return simd::look_up<count>(elements, x); },
         indices);
 }
-template <std::int64_t, int n>
+template <std::int64_t count, int n>
 auto gather(const float* elements, const Lanes<std::int64_t, n>& indices) {
     Lanes<float, n> result;
     for (int p = 0; p < result.part_count; ++p)
-        result.part[p] = simd::gather(elements, indices.part[2 * p], indices.part[2 * p + 1]);
+        result.part[p] =
+            simd::look_up<count>(elements, indices.part[2 * p], indices.part[2 * p + 1]);
     return result;
 }
 template <std::int64_t count, class T, int n>

@@ -121,10 +121,12 @@ TEST(TabulateThresholds, LeavesDrawsThatMayFaultOrDependOnMore) {
     }
 }
 
-TEST(TabulateThresholds, LeavesFloats) {
-    ir::Program before = with_cpfs("Discrete(color, @red : 0.25, @green : 0.5, @blue : 0.25)");
+TEST(TabulateThresholds, AddsFloatsAsSuch) {
+    ir::Program before = with_cpfs("Discrete(color, @red : 0.1, @green : 0.2, @blue : 0.7)");
     before.real = RealType::Float;
-    EXPECT_EQ(step_text(Tabulated(before).program), step_text(before));
+    const Tabulated made(std::move(before));
+    EXPECT_EQ(made.cpf_of("c"), "next.c = sample interval@0[0](c-thresholds)");
+    EXPECT_EQ(made.table(), (std::vector<ir::Value>{double{0.1F}, double{0.1F + 0.2F}}));
 }
 
 }  // namespace

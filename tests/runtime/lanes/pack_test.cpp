@@ -335,11 +335,13 @@ TEST(Packs, TakeBranchesInEachLane) {
 template <std::size_t size>
 void expect_elements_of_scalars() {
     std::array<double, size> table;
+    std::array<float, size> floats;
     std::array<std::int64_t, size> numbers;
     std::array<bool, size> flags;
     std::array<Bools, size> flags_of_lanes;
     for (std::size_t i = 0; i < size; ++i) {
         table[i] = 0.1 * static_cast<double>(i);
+        floats[i] = static_cast<float>(table[i]);
         numbers[i] = -static_cast<std::int64_t>(i * i);
         flags[i] = i * i % 7 < 3;
         flags_of_lanes[i] = Bools::of_bits(0x9E3779B9 * (i + 1) >> 7);
@@ -348,6 +350,8 @@ void expect_elements_of_scalars() {
     for (std::int64_t& index : indices) index = floor_mod(index, std::int64_t{size});
     expect_bits_of_scalars(
         "at", [&](auto i) { return at(table, i); }, indices);
+    expect_bits_of_scalars(
+        "at", [&](auto i) { return at(floats, i); }, indices);
     expect_bits_of_scalars(
         "at", [&](auto i) { return at(numbers, i); }, indices);
     expect_bits_of_scalars(
@@ -359,7 +363,7 @@ void expect_elements_of_scalars() {
             << own[lane] << " of " << size << " in lane " << lane << " on " << simd::level;
 }
 
-// Tables of up to 16 reals or 64 bools, or 32 bools of each lane, are kept in registers. Small
+// Tables of up to 32 numbers or 64 bools, or 32 bools of each lane, are kept in registers. Small
 // tables are not read in units of 8 bytes.
 TEST(Packs, ReadTablesInEachLane) {
     expect_elements_of_scalars<1>();
