@@ -16,10 +16,16 @@ namespace {
 constexpr double cheap_operand = 6;
 constexpr std::int64_t largest_int_exponent = 4;
 
+// Whether a product with 1 / value is a quotient by it, to the bit.
+template <class Number>
 bool is_power_of_two(double value) {
     int exponent = 0;
     const double fraction = std::frexp(std::abs(value), &exponent);
-    return fraction == 0.5 && std::isnormal(value) && std::isnormal(1 / value);
+    return fraction == 0.5 && std::isnormal(static_cast<Number>(value)) &&
+           std::isnormal(static_cast<Number>(1 / value));
+}
+bool is_power_of_two(double value, RealType real) {
+    return real == RealType::Float ? is_power_of_two<float>(value) : is_power_of_two<double>(value);
 }
 
 // A bool as a number: 0 or 1, never -0.
@@ -87,7 +93,7 @@ std::optional<ir::NodeId> reduced(ir::Builder& builder, const ir::Apply& apply) 
     if (apply.op == Operator::Power) return reduced_power(builder, a, b);
     if (apply.op == Operator::Divide) {
         const auto divisor = ir::constant<double>(program, b);
-        if (!divisor || !is_power_of_two(*divisor)) return std::nullopt;
+        if (!divisor || !is_power_of_two(*divisor, program.real)) return std::nullopt;
         return builder.apply(Operator::Multiply, {a, builder.constant(1 / *divisor)});
     }
     if (apply.op == Operator::Add || apply.op == Operator::Subtract)

@@ -8,6 +8,10 @@ namespace {
 std::string reduced(const std::string& cpf_of_x) {
     return of_x(cpf_of_x, passes::reduce_strength).after;
 }
+ir::Program reduce_floats(ir::Program program, passes::Report& report) {
+    program.real = RealType::Float;
+    return passes::reduce_strength(std::move(program), report);
+}
 std::string relaxed(const std::string& cpf_of_x) {
     return of_x(cpf_of_x, passes::fast_math).after;
 }
@@ -15,6 +19,13 @@ std::string relaxed(const std::string& cpf_of_x) {
 TEST(ReduceStrength, MultipliesInsteadOfDividingByPowersOfTwo) {
     EXPECT_EQ(reduced("x / 4 + x / -0.5"), "state.x * 0.25 + state.x * -2.0");
     EXPECT_EQ(reduced("x / 3"), "state.x / 3.0") << "1/3 is not exact";
+}
+
+TEST(ReduceStrength, DividesFloatsWhereOneOfTheTwoIsNotNormal) {
+    const std::string quotient = "x / 7.174648137343064e-43";  // 2^-140
+    EXPECT_EQ(reduced(quotient), "state.x * 1.3937965749081639e+42");
+    EXPECT_EQ(of_x(quotient, reduce_floats).after, "state.x / 7.174648137343064e-43");
+    EXPECT_EQ(of_x("x / 4", reduce_floats).after, "state.x * 0.25");
 }
 
 TEST(ReduceStrength, MultipliesInsteadOfRaising) {
