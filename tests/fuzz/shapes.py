@@ -360,7 +360,7 @@ class Shapes:
         rough = rough or self.flavour.wild
         options = [
             (2, lambda d: self.steps_of_count(d, "real")), (3, self.pieces), (2, self.weighted_sum),
-            (2, self.line_of_count), (2, self.steps_of_number), (2, self.product_of_bools), (2, self.part_of_constants), (1, self.square),
+            (2, self.line_of_count), (2, self.steps_of_number), (3, self.product_of_bools), (2, self.part_of_constants), (1, self.square),
         ]  # fmt: skip
         if rough:
             options += [
