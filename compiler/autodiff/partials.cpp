@@ -112,6 +112,7 @@ Partials of_operator(Operator op, double a, double b, double v) {
         case Operator::BitAnd:
         case Operator::BitOr:
         case Operator::BitXor:
+        case Operator::ShiftRight:
         case Operator::CountOnes:
             break;
     }

@@ -19,6 +19,7 @@
 #include "passes/aggregations/set_bits.hpp"
 #include "passes/aggregations/skip_zero_terms.hpp"
 #include "passes/aggregations/tabulate_counts.hpp"
+#include "passes/aggregations/tabulate_products.hpp"
 #include "passes/aggregations/tabulate_thresholds.hpp"
 #include "passes/aggregations/visit_true.hpp"
 #include "passes/arithmetic/compare_magnitudes.hpp"
@@ -206,6 +207,12 @@ constexpr Pass in_order[] = {
      "products of one constant where bools are true look up its powers by a count",
      {"make_aggregations_sparse"},
      "it leaves out factors of 1, which it does not see in a table"},
+    {"tabulate_products",
+     Phase::Aggregations,
+     tabulate_products,
+     "products of constants that the bools of a row choose look up several bools at once",
+     {"reduce_strength", "count_factors"},
+     "sums of terms of one bool are selects; a power is one look-up"},
     {"tabulate_counts",
      Phase::Aggregations,
      tabulate_counts,

@@ -258,6 +258,8 @@ constexpr OperatorRow operators[] = {
      .typing = Typing::Ints, .kernels = {.of_ints = [](const Ints& x) { return rddl::bit_or(x.a, x.b); }}},
     {.op = Operator::BitXor, .name = "bit_xor", .source = "", .form = Form::Internal, .operands = {"a", "b"},
      .typing = Typing::Ints, .kernels = {.of_ints = [](const Ints& x) { return rddl::bit_xor(x.a, x.b); }}},
+    {.op = Operator::ShiftRight, .name = "shift_right", .source = "", .form = Form::Internal, .operands = {"a", "b"},
+     .typing = Typing::Ints, .kernels = {.of_ints = [](const Ints& x) { return rddl::shift_right(x.a, x.b); }}},
     {.op = Operator::CountOnes, .name = "count_ones", .source = "", .form = Form::Internal, .operands = {"x"},
      .typing = Typing::Ints, .kernels = {.of_ints = [](const Ints& x) { return rddl::count_ones(x.a); }}},
 };

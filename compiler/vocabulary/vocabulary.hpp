@@ -71,6 +71,7 @@ enum class Operator : std::uint8_t {
     BitAnd,
     BitOr,
     BitXor,
+    ShiftRight,
     CountOnes,  // of ints, bit by bit; how many bits are 1
 };
 

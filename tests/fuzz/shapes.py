@@ -360,7 +360,7 @@ class Shapes:
         rough = rough or self.flavour.wild
         options = [
             (2, lambda d: self.steps_of_count(d, "real")), (3, self.pieces), (2, self.weighted_sum),
-            (2, self.line_of_count), (2, self.steps_of_number), (2, self.part_of_constants), (1, self.square),
+            (2, self.line_of_count), (2, self.steps_of_number), (3, self.product_of_bools), (2, self.part_of_constants), (1, self.square),
         ]  # fmt: skip
         if rough:
             options += [
@@ -370,6 +370,20 @@ class Shapes:
                 ((2 if self.scope else 8) if self.flavour.draws else 0, self.draw_times_constant),
             ]  # fmt: skip
         return self.pick_weighted(options)(depth)
+
+    def product_of_bools(self, depth: int) -> Expr | None:
+        """Of a constant for each true and each false bool: products that do not round, or do."""
+
+        def body(variables):
+            chosen = self.over("bool", variables, CHANGING) or self.boolean(0)
+            steps = ["0.5", "1.0", "0.0", "1.5", "2.5"] + (["0.3", "-0.5"] if self.flavour.wild else [])
+            return Expr("real", f"if (%s) then {self.pick(steps)} else {self.pick(steps)}", (chosen,))
+
+        found = self.over_objects(depth, "", body, most=1)
+        if found is None:
+            return None
+        binder, inside, _ = found
+        return Expr("real", f"(prod_{binder} [%s])", (inside,), 100, UNSURE)
 
     def pieces(self, depth: int) -> Expr | None:
         """The value of the interval in which a number lies: a constant, or a value of the object."""

@@ -140,6 +140,7 @@ TEST_F(InterpreterTest, CountsBits) {
     EXPECT_EQ(int_value(w.apply(Operator::CountOnes, bits)), 2);
     EXPECT_EQ(int_value(w.apply(Operator::BitOr, bits, w.integer(8))), int_value(bits) + 8);
     EXPECT_EQ(int_value(w.apply(Operator::BitXor, bits, bits)), 0);
+    EXPECT_EQ(int_value(w.apply(Operator::ShiftRight, bits, w.integer(1))), int_value(bits) / 2);
 }
 
 TEST_F(InterpreterTest, NestsReductions) {

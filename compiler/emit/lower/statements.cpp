@@ -114,7 +114,7 @@ std::string_view wish_for(const ir::Node& node) {
         return "bits";
     const auto* apply = std::get_if<ir::Apply>(&node.form);
     if (apply && apply->op == Operator::CountOnes) return "count";
-    if (apply && apply->op >= Operator::BitAnd && apply->op <= Operator::BitXor) return "bits";
+    if (apply && apply->op >= Operator::BitAnd && apply->op <= Operator::ShiftRight) return "bits";
     const bool draws = std::holds_alternative<ir::Sample>(node.form) ||
                        std::holds_alternative<ir::Discrete>(node.form) ||
                        std::holds_alternative<ir::DiscreteOver>(node.form) ||

@@ -1,5 +1,5 @@
 // Matrices of bits in registers, by squares of 8 x 8: processors that permute the bytes of a
-// register (VBMI) also transpose eight squares by one instruction (GFNI).
+// register (VBMI) also transpose a register of squares by one instruction (GFNI).
 #pragma once
 
 #include <rddl/lanes/simd.hpp>

@@ -172,6 +172,16 @@ requires SomePack<A, B> RDDL_INLINE auto bit_xor(const A& a, const B& b) {
     return Int(a) ^ Int(b);
 }
 
+// The bits from `first` on, 0 <= first < 64.
+constexpr std::int64_t shift_right(std::int64_t bits, std::int64_t first) {
+    return static_cast<std::int64_t>(static_cast<std::uint64_t>(bits) >> first);
+}
+template <int n>
+RDDL_INLINE Lanes<std::int64_t, n> shift_right(const Lanes<std::int64_t, n>& bits,
+                                               std::int64_t first) {
+    return ints_of(words_of(bits) >> static_cast<int>(first));
+}
+
 // The bits of an int fill a row of a table of bools, the lowest one first.
 template <class Table, class Int>
 RDDL_INLINE void spread(Table& row, const Int& bits) {
