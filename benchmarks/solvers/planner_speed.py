@@ -37,9 +37,9 @@ IPPC_2011 = ["CooperativeRecon", "CrossingTraffic", "Elevators", "GameOfLife", "
              "Traffic_CTM"]
 SECONDS = 0.05, 0.25  # of a decision, beside PROST
 HORIZON = 40
-EPISODES = 4
+EPISODES = 20
 BATCH = 256
-FEW, MANY = 5_000, 105_000
+FEW, MANY = 5_000, 45_000
 
 
 def processor_seconds(words):

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <limits>
 
 namespace rddlc::planners {
 
@@ -17,6 +16,8 @@ namespace {
 constexpr float least_share = 0.02f;
 // And so much that of a step before.
 constexpr float shifted_share = 0.1f;
+// The greatest number of a real without bounds, in the learner's units.
+constexpr float most_number = 1e9f;
 // The chance that a first sub-action stops.
 constexpr float first_stop = 0.2f;
 
@@ -37,12 +38,15 @@ Distribution::Distribution(const ActionSpace& space, Spread spread)
       fitted_(logits()),
       defaults_(indices()),
       usual_(indices()) {
-    constexpr float no_limit = std::numeric_limits<float>::infinity();
-    for (std::size_t k = 0; k < repetitions * reals(); ++k)
-        limits_.push_back(space.reals[k % reals()].range == RealHead::Range::Bounded ? 1
-                                                                                     : no_limit);
-    repeated_means_.resize(limits_.size());
-    repeated_deviations_.resize(limits_.size());
+    for (std::size_t k = 0; k < repetitions * reals(); ++k) {
+        using Range = RealHead::Range;
+        const Range range = space.reals[k % reals()].range;
+        const bool is_bent = range == Range::AboveLower || range == Range::BelowUpper;
+        most_.push_back(range == Range::Bounded ? 1 : most_number);
+        least_.push_back(is_bent ? -half_bend : -most_.back());
+    }
+    repeated_means_.resize(most_.size());
+    repeated_deviations_.resize(most_.size());
     sums_.resize(reals());
     squares_.resize(reals());
     std::vector<float> numbers(reals());
@@ -142,9 +146,10 @@ void Distribution::draw(RandomStream& stream, PlanNoise& noise, Population& popu
 void Distribution::draw_reals(std::size_t step, const PlanNoise& noise, Population& population) {
     repeat(means_.data() + step * reals(), reals(), repeated_means_.data());
     repeat(deviations_.data() + step * reals(), reals(), repeated_deviations_.data());
-    loops_.scale_numbers(
-        {limits_.size(), repeated_means_.data(), repeated_deviations_.data(), limits_.data()},
-        noise.widths(), noise.numbers(), population.plans() * reals(), population.numbers(step));
+    loops_.scale_numbers({most_.size(), repeated_means_.data(), repeated_deviations_.data(),
+                          least_.data(), most_.data()},
+                         noise.widths(), noise.numbers(), population.plans() * reals(),
+                         population.numbers(step));
 }
 
 void Distribution::draw_index(std::size_t step, int first_logit, int count, std::int32_t usual,
@@ -229,13 +234,15 @@ void Distribution::fit_reals(const Population& population, std::size_t step,
                              double memory, bool keeps_deviations) {
     float *const means = means_.data() + step * reals(), *const deviations =
                                                              deviations_.data() + step * reals();
-    loops_.add_moments(
-        {population.numbers(step), reals(), plans.size(), plans.data(), weights.data()}, means,
-        sums_.data(), squares_.data());
+    // Sums of what is more than the best: no plan need be near the mean before.
+    const float *const all = population.numbers(step), *const best = all + plans[0] * reals();
+    loops_.add_moments({all, reals(), plans.size(), plans.data(), weights.data()}, best,
+                       sums_.data(), squares_.data());
     for (std::size_t r = 0; r < reals(); ++r) {
         // The sum of the weights is 1.
+        const double mean = static_cast<double>(best[r]) + sums_[r];
         const double square = std::max(squares_[r] - sums_[r] * sums_[r], 0.0);
-        means[r] = static_cast<float>(static_cast<double>(means[r]) + (1 - memory) * sums_[r]);
+        means[r] = static_cast<float>(memory * static_cast<double>(means[r]) + (1 - memory) * mean);
         if (keeps_deviations) continue;
         const double deviation =
             memory * static_cast<double>(deviations[r]) + (1 - memory) * std::sqrt(square);

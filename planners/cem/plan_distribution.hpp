@@ -72,7 +72,7 @@ class Distribution {
     std::int64_t steps_ = 0;
     std::vector<float> first_means_, first_probabilities_;  // of a step in a new episode
     std::vector<float> means_, deviations_;                 // rows of reals
-    Aligned<float> limits_;                                 // of a row, repeated
+    Aligned<float> least_, most_;                           // numbers of a row, repeated
     Aligned<float> repeated_means_, repeated_deviations_;   // of one row
     std::vector<double> sums_, squares_;                    // of one row, in a fit
     std::vector<float> probabilities_;                      // rows of logits

@@ -46,11 +46,11 @@ void repeat(const Value* row, std::size_t reals, Value* to) {
     for (std::size_t k = 1; k < repetitions; k *= 2) std::copy_n(to, k * reals, to + k * reals);
 }
 
-// The distribution of the reals of a step; each is `period` values. A limit is 1 where a number has
-// bounds, else infinite.
+// The distribution of the reals of a step, and the limits of their numbers; each is `period`
+// values. Beyond its bounds a number would change nothing, and drift away.
 struct NumberScales {
     std::size_t period;
-    const float *means, *deviations, *limits;
+    const float *means, *deviations, *least, *most;
 };
 
 // A real of an action: its scale, and its default as a float and as it is.
@@ -91,7 +91,7 @@ class RealScales {
 struct PlanLoops {
     void (*next_numbers)(const NumberNoise& noise, std::size_t count, float* numbers);
     void (*next_ranks)(const RankNoise& noise, std::size_t plans, std::int32_t* ranks);
-    // number = mean + deviation * noise; where it is bounded, between -1 and 1, else with noise
+    // number = mean + deviation * noise, within its limits; where 1 is not the most, with noise
     // that is so many widths as wide. The first one is that of a plan's first real, as in
     // real_values().
     void (*scale_numbers)(const NumberScales& scales, const float* widths, const float* noise,

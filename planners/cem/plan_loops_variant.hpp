@@ -41,10 +41,10 @@ inline void for_each_period(std::size_t period, std::size_t count, Body body) {
 inline void scale_period(const NumberScales& scales, const float* widths, const float* noise,
                          std::size_t count, float* __restrict numbers) {
     const float *const means = scales.means, *const deviations = scales.deviations;
-    const float* const limits = scales.limits;
+    const float *const least = scales.least, *const most = scales.most;
     for (std::size_t k = 0; k < count; ++k) {
-        const float limit = limits[k], width = limit > 1 ? widths[k] : 1.0f;
-        numbers[k] = clamped(means[k] + deviations[k] * width * noise[k], -limit, limit);
+        const float width = most[k] > 1 ? widths[k] : 1.0f;
+        numbers[k] = clamped(means[k] + deviations[k] * width * noise[k], least[k], most[k]);
     }
 }
 

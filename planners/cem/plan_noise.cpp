@@ -93,8 +93,8 @@ PlanNoise::PlanNoise(std::size_t plans, int reals, int ranks, std::span<const do
     if (reals > 0) draw_widths();
 }
 
-// Rows are in ascending order, but for the first plans, in whose places a search puts plans that
-// are not drawn: those would else be the narrow ones.
+// Rows are in ascending order from the eleventh plan on. A search puts plans that are not drawn in
+// the places of the first ones, which would else be the narrow ones.
 void PlanNoise::draw_widths() {
     constexpr std::size_t least_rows = 4, most_rows = 32, most_values = std::size_t{1} << 16;
     constexpr std::size_t any = 10;

@@ -36,31 +36,38 @@ void copy_record(const std::byte* from, std::size_t size, std::byte* to) {
 
 // Lanes without a start are as the decision, and run no further.
 void Continuations::begin(const DecisionPoint& point, std::span<const Start> starts) {
+    const std::size_t count = starts.size(), size = action_size_;
+    const auto* const none = static_cast<const std::byte*>(simulator_.problem->default_action);
+    std::byte* const actions = actions_.data();
     bool is_elsewhere = false;
     any_wanted_ = false;
-    for (std::size_t k = 0; k < lanes(); ++k) {
-        const bool has_start = k < starts.size();
-        streams_[k] = has_start ? starts[k].stream : 0;
-        steps_[k] = has_start ? starts[k].step : point.step;
-        wanted_[k] = has_start && !starts[k].action;
-        any_wanted_ |= wanted_[k] != 0;
-        is_elsewhere |= has_start && starts[k].state;
+    for (std::size_t k = 0; k < count; ++k) {
+        const Start& start = starts[k];
+        streams_[k] = start.stream;
+        steps_[k] = start.step;
+        wanted_[k] = !start.action;
+        any_wanted_ |= !start.action;
+        is_elsewhere |= start.state != nullptr;
+    }
+    for (std::size_t k = 0; k < count; ++k)
+        copy_record(starts[k].action ? starts[k].action : none, size, actions + k * size);
+    for (std::size_t k = count; k < lanes(); ++k) {
+        streams_[k] = 0;
+        steps_[k] = point.step;
+        wanted_[k] = 0;
+        copy_record(none, size, actions + k * size);
     }
     futures_.begin(point.origin, streams_);
     if (is_elsewhere) {
         solvers::require_done(simulator_, simulator_.get_state(futures_.batch(), 0,
                                                                futures_.count(), states_.data()));
-        for (std::size_t k = 0; k < starts.size(); ++k)
+        for (std::size_t k = 0; k < count; ++k)
             if (starts[k].state)
                 std::copy_n(starts[k].state, state_size_, states_.data() + k * state_size_);
         futures_.place(states_.data(), steps_);
     }
     for (std::size_t k = 0; k < lanes(); ++k)
-        futures_.set_limit(k, k < starts.size() ? starts[k].depth : 1);
-    const auto* const none = static_cast<const std::byte*>(simulator_.problem->default_action);
-    for (std::size_t k = 0; k < lanes(); ++k)
-        copy_record(k < starts.size() && starts[k].action ? starts[k].action : none, action_size_,
-                    actions_.data() + k * action_size_);
+        futures_.set_limit(k, k < count ? starts[k].depth : 1);
 }
 
 bool Continuations::run(const DecisionPoint& point, std::span<const Start> starts,

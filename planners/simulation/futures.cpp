@@ -103,7 +103,7 @@ void Futures::take_step() {
     discount_ *= simulator_.problem->discount;
 }
 
-// Of these lanes: those end that have ended, or whose reward is bad.
+// Ends each of these lanes that has ended in the batch, or whose reward is bad.
 void Futures::end_some(std::size_t first, std::size_t last) {
     for (std::size_t k = first; k < last; ++k) {
         const bool is_bad = (causes_[k] & RDDL_FAULTED) || !std::isfinite(rewards_[k]);

@@ -86,15 +86,17 @@ TEST(PlanLoops, ComputeTheSameBitsOnAllInstructionSets) {
             // Two reals, of which the other one is free.
             constexpr float infinity = std::numeric_limits<float>::infinity();
             const float means[] = {0.5f, 0}, deviations[] = {2, 1};
-            const float limits[] = {range == Range::Bounded ? 1 : infinity, infinity};
+            const float least[] = {-1, -infinity};
+            const float most[] = {range == Range::Bounded ? 1 : infinity, infinity};
             std::vector<float> all_means(2 * repetitions), all_deviations(2 * repetitions),
-                all_limits(2 * repetitions);
+                all_least(2 * repetitions), all_most(2 * repetitions);
             repeat(means, 2, all_means.data());
             repeat(deviations, 2, all_deviations.data());
-            repeat(limits, 2, all_limits.data());
-            loops.scale_numbers(
-                {2 * repetitions, all_means.data(), all_deviations.data(), all_limits.data()},
-                old.data(), noise.data(), plans, numbers.data());
+            repeat(least, 2, all_least.data());
+            repeat(most, 2, all_most.data());
+            loops.scale_numbers({2 * repetitions, all_means.data(), all_deviations.data(),
+                                 all_least.data(), all_most.data()},
+                                old.data(), noise.data(), plans, numbers.data());
             note(numbers);
             for (const bool rounds : {false, true}) {
                 for (const double exact_default : {0.1, 0.125}) {  // in doubles, and in floats
