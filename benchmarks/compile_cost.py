@@ -1,9 +1,10 @@
 """The cost of compiling the problems of rddlrepository: to C++, and on to a shared object.
 
-    .venv/bin/python benchmarks/compile_cost.py                  all 586 instances; half an hour
-    .venv/bin/python benchmarks/compile_cost.py RecSim_ippc2023  some problems
-    .venv/bin/python benchmarks/compile_cost.py --no-build       only to C++
-    .venv/bin/python benchmarks/compile_cost.py --require        and fail above the limits
+    .venv/bin/python benchmarks/compile_cost.py                     all 586 instances; half an hour
+    .venv/bin/python benchmarks/compile_cost.py --instances-each 2  the smallest and the largest of each problem
+    .venv/bin/python benchmarks/compile_cost.py RecSim_ippc2023     some problems
+    .venv/bin/python benchmarks/compile_cost.py --no-build          only to C++
+    .venv/bin/python benchmarks/compile_cost.py --require           and fail above the limits
 
 A shared object is made in two ways: by `rddlc -o sim.so`, for the processor of this machine, and by
 the C++ compiler at -O2, for any x86-64 processor, as someone does who adds sim.cpp to a program. The
@@ -31,7 +32,7 @@ from document import ROOT, machine_text, markdown_table, write_section
 
 sys.path.append(str(ROOT / "tests/conformance"))
 
-from problems import Case, cases_of  # noqa: E402
+from problems import Case, all_problems, repository_cases, spread_by_size  # noqa: E402
 
 COMPILE_SECONDS, COMPILE_MEGABYTES = 1.0, 500.0
 BUILD_SECONDS, MEDIAN_BUILD_SECONDS = 10.0, 3.0
@@ -157,6 +158,7 @@ def excesses(costs: list[Cost]) -> list[str]:
 def parse_arguments() -> argparse.Namespace:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("problems", nargs="*", help="names of problems of rddlrepository")
+    parser.add_argument("--instances-each", type=int, help="of a problem, spread by size (all)")
     parser.add_argument("--rddlc", type=Path, default=ROOT / "build/bin/rddlc", help="our compiler")
     parser.add_argument("--cxx", default=os.environ.get("CXX", "c++"), help="the C++ compiler")
     parser.add_argument("--workers", type=int, default=os.cpu_count())
@@ -169,7 +171,8 @@ def parse_arguments() -> argparse.Namespace:
 
 def main() -> int:
     options = parse_arguments()
-    cases = cases_of(options.problems)
+    by_problem = map(repository_cases, options.problems or all_problems())
+    cases = [case for cases in by_problem for case in spread_by_size(cases, options.instances_each)]
     print(f"{'':38} {'rddlc s':>8} {'MB':>7} {'lines':>8} {'code':>8} {'.so s':>8} {'C++ s':>8}")
     costs = []
     processes = multiprocessing.get_context("spawn")
