@@ -1,6 +1,7 @@
 // Whole rollouts: what the interpreter computes, and that optimising changes no bit of it.
 #include "ir/interpreter.hpp"
 #include "ir/layout.hpp"
+#include "ir/print.hpp"
 #include "passes/passes.hpp"
 #include "problem.hpp"
 
@@ -164,7 +165,7 @@ void expect_equal_rollouts(const ir::Program& program, const ir::Program& optimi
 TEST(Rollout, IsTheSameBitForBitAfterOptimising) {
     const ir::Program program = grounded(busy_problem());
     const ir::Program optimised = optimise(program);
-    EXPECT_LT(optimised.buffers.size(), program.buffers.size());
+    EXPECT_NE(ir::print(optimised), ir::print(program));
     EXPECT_GT(optimised.local_count, 0u);
     expect_equal_rollouts(program, optimised);
 }

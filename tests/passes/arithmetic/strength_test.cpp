@@ -21,9 +21,11 @@ TEST(ReduceStrength, MultipliesInsteadOfDividingByPowersOfTwo) {
     EXPECT_EQ(reduced("x / 3"), "state.x / 3.0") << "1/3 is not exact";
 }
 
+// By 2^-140.
 TEST(ReduceStrength, DividesFloatsWhereOneOfTheTwoIsNotNormal) {
-    const std::string quotient = "x / 7.174648137343064e-43";  // 2^-140
-    EXPECT_EQ(reduced(quotient), "state.x * 1.3937965749081639e+42");
+    const std::string quotient =
+        "x / 0.00000000000000000000000000000000000000000071746481373430634";
+    EXPECT_EQ(reduced(quotient), "state.x * 1.393796574908164e+42");
     EXPECT_EQ(of_x(quotient, reduce_floats).after, "state.x / 7.174648137343064e-43");
     EXPECT_EQ(of_x("x / 4", reduce_floats).after, "state.x * 0.25");
 }
