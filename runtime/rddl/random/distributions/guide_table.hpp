@@ -19,15 +19,15 @@ struct GuideTable {
     using R = typename std::remove_cvref_t<decltype(thresholds)>::value_type;
     static constexpr std::size_t most_parts = 32;  // registers hold their tables
 
-    static constexpr bool is_inside(R threshold, std::size_t part, std::size_t parts) {
-        return threshold * static_cast<R>(parts) > static_cast<R>(part) &&
-               threshold * static_cast<R>(parts) < static_cast<R>(part + 1);
+    static constexpr bool is_inside(R threshold, std::size_t part, std::size_t count) {
+        return threshold * static_cast<R>(count) > static_cast<R>(part) &&
+               threshold * static_cast<R>(count) < static_cast<R>(part + 1);
     }
-    static constexpr bool separates(std::size_t parts) {
-        for (std::size_t part = 0; part < parts; ++part) {
-            int inside = 0;
-            for (const R threshold : thresholds) inside += is_inside(threshold, part, parts);
-            if (inside > 1) return false;
+    static constexpr bool separates(std::size_t count) {
+        for (std::size_t part = 0; part < count; ++part) {
+            int found = 0;
+            for (const R threshold : thresholds) found += is_inside(threshold, part, count);
+            if (found > 1) return false;
         }
         return true;
     }
