@@ -285,9 +285,8 @@ ir::NodeId Lowering::product(const model::Apply& form) {
 // hands the product down into its own second branch: in the first one it is zero already.
 ir::NodeId Lowering::product_unless_zero(ir::NodeId first, ir::NodeId other, bool right_first) {
     const ir::NodeId zero = builder_.convert(builder_.constant(false), program_[first].type);
-    const auto* convert = std::get_if<ir::Convert>(&program_[first].form);
-    if (convert && program_[convert->operand].type == ir::Scalar::Bool)
-        return builder_.select(convert->operand, other, zero);
+    if (const auto holds = ir::converted_bool(program_, first))
+        return builder_.select(*holds, other, zero);
     const auto test = [&](ir::NodeId id) {
         return builder_.apply(Operator::Equal, {id, zero});
     };

@@ -515,6 +515,17 @@ std::optional<BufferId> buffer_read_by(const Node& node) {
         [](const auto&) { return std::optional<BufferId>(); });
 }
 
+bool reads(const Program& program, NodeId id, BufferId buffer) {
+    return any_node_of(program, id,
+                       [&](NodeId each) { return buffer_read_by(program[each]) == buffer; });
+}
+
+std::optional<NodeId> converted_bool(const Program& program, NodeId id) {
+    const auto* convert = std::get_if<Convert>(&program[id].form);
+    if (!convert || program[convert->operand].type != Scalar::Bool) return std::nullopt;
+    return convert->operand;
+}
+
 std::optional<Place> place_of(const Node& node) {
     return match(
         node.form, [](const Apply& apply) { return apply.place; },

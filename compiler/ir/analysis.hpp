@@ -62,6 +62,10 @@ bool any_node_of(const Program& program, NodeId id, const Has& has) {
                return any_node_of(program, operand, has);
            });
 }
+// Whether the node or one below it reads the buffer.
+bool reads(const Program& program, NodeId id, BufferId buffer);
+// The bool that a node makes a number of, 0 or 1 and never -0; nothing of another node.
+std::optional<NodeId> converted_bool(const Program& program, NodeId id);
 // The place of a node that draws or may fault.
 std::optional<Place> place_of(const Node& node);
 // The buffer that a node itself reads (Load, Search, Bits, Union, Element, Interval).

@@ -1,5 +1,6 @@
 #include "ir/simplify.hpp"
 
+#include "ir/fold.hpp"
 #include "ir/rewrite.hpp"
 
 #include <algorithm>
@@ -102,6 +103,7 @@ class Simplifier {
 
     // The order of ints is known where their ranges do not overlap.
     std::optional<NodeId> order() {
+        if (const auto value = compared_bool()) return value;
         const bool is_greater = op_ == Operator::Greater || op_ == Operator::GreaterEqual;
         const bool is_strict = op_ == Operator::Less || op_ == Operator::Greater;
         const NodeId less = is_greater ? b_ : a_, more = is_greater ? a_ : b_;
@@ -271,10 +273,7 @@ class Simplifier {
         if (!number || !is(b_, std::int64_t{0})) return std::nullopt;
         return builder_.apply(op_, {*number, zero_of(*number)});
     }
-    NodeId zero_of(NodeId number) {
-        if (node(number).type == Scalar::Int) return builder_.constant(std::int64_t{0});
-        return builder_.constant(0.0);
-    }
+    NodeId zero_of(NodeId number) { return builder_.constant(convert(false, node(number).type)); }
     // Signs are equal where both numbers are positive, negative and zero, or neither is: so is that
     // of nan.
     std::optional<NodeId> same_signs() {
@@ -291,18 +290,23 @@ class Simplifier {
              agree(Operator::Equal)});
     }
 
-    // int(b) == 1 where b is true, and int(b) == 0 where it is false.
-    std::optional<NodeId> bool_as_number() {
-        const auto* number = std::get_if<Convert>(&node(a_).form);
-        if (!number || node(number->operand).type != Scalar::Bool) return std::nullopt;
-        if (is_one(b_)) return number->operand;
-        if (is_zero(b_)) return builder_.apply(Operator::Not, {number->operand});
-        return std::nullopt;
+    // int(b) < 1 where b is false: a comparison with a constant that tells 0 from 1.
+    std::optional<NodeId> compared_bool() {
+        const auto condition = converted_bool(builder_.program(), a_);
+        const auto* limit = std::get_if<Constant>(&node(b_).form);
+        if (!condition || !limit) return std::nullopt;
+        // Without nodes, which would be left in the program where nothing is simplified.
+        const auto result_for = [&](bool value) {
+            return fold(op_, std::vector{convert(value, node(a_).type), limit->value});
+        };
+        const auto if_true = result_for(true), if_false = result_for(false);
+        if (!if_true || !if_false || *if_true == *if_false) return std::nullopt;
+        return *if_true == Value(true) ? *condition : builder_.apply(Operator::Not, {*condition});
     }
 
     std::optional<NodeId> equality() {
         if (const auto order = sign_against_zero()) return order;
-        if (const auto value = bool_as_number()) return value;
+        if (const auto value = compared_bool()) return value;
         if (const auto same = same_signs()) return same;
         if (is(a_, true)) return b_;
         if (is(b_, true)) return a_;
@@ -315,7 +319,7 @@ class Simplifier {
     std::optional<NodeId> inequality() {
         if (const auto order = sign_against_zero()) return order;
         if (const auto same = same_signs()) return builder_.apply(Operator::Not, {*same});
-        if (const auto value = bool_as_number()) return builder_.apply(Operator::Not, {*value});
+        if (const auto value = compared_bool()) return value;
         if (is(a_, false)) return b_;
         if (is(b_, false)) return a_;
         if (is(a_, true)) return builder_.apply(Operator::Not, {b_});

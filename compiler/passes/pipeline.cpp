@@ -255,7 +255,7 @@ constexpr Pass in_order[] = {
     {"keep_bools",
      Phase::Aggregations,
      keep_bools,
-     "products of bools, and comparisons of their numbers with constants, are bools",
+     "products of bools as numbers are bools",
      {"make_aggregations_sparse", "skip_zero_terms"},
      "tables of bools are factors there"},
     {"count_bits",

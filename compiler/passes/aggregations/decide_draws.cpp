@@ -16,9 +16,8 @@ class Truth {
     // others.
     std::optional<ir::NodeId> of(ir::NodeId id) {
         const ir::Node node = program()[id];
-        if (const auto* convert = std::get_if<ir::Convert>(&node.form))
-            return program()[convert->operand].type == ir::Scalar::Bool ? convert->operand
-                                                                        : of(convert->operand);
+        if (const auto holds = ir::converted_bool(program(), id)) return holds;
+        if (const auto* convert = std::get_if<ir::Convert>(&node.form)) return of(convert->operand);
         if (const auto* select = std::get_if<ir::Select>(&node.form)) return of_choice(*select);
         if (const auto* reduce = std::get_if<ir::Reduce>(&node.form)) return of_product(*reduce);
         if (const auto* apply = std::get_if<ir::Apply>(&node.form)) return of_operator(*apply);

@@ -1,7 +1,7 @@
-// Products of bools as numbers, and comparisons of such numbers with constants, are bools.
+// Products of bools as numbers are bools; so are comparisons of such numbers with constants
+// (ir/simplify.cpp).
 //
 //     int(TURN[u, d]) * int(scratch.green[u])   int(TURN[u, d] && scratch.green[u])
-//     int(action.walk[p] != none) == 1          action.walk[p] != none
 //
 // So packs combine masks, where they would multiply registers full of zeros and ones.
 #pragma once

@@ -16,13 +16,6 @@ constexpr double expensive = 20;
 // Operations that are worth computing before a loop.
 constexpr double worth_a_name = 4;
 
-// The bool that a number is made of; nothing if it is another number.
-std::optional<ir::NodeId> bool_of(const ir::Program& program, ir::NodeId id) {
-    const auto* convert = std::get_if<ir::Convert>(&program[id].form);
-    if (!convert || program[convert->operand].type != ir::Scalar::Bool) return std::nullopt;
-    return convert->operand;
-}
-
 // A product as a bool and what it is where the bool holds: nothing stands for 1.
 struct Choice {
     ir::NodeId counts;
@@ -32,7 +25,7 @@ struct Choice {
 // The bool is a factor of the term, or of one of its factors, also of a product of ints.
 std::optional<Choice> choice_of(ir::Builder& builder, ir::NodeId term) {
     const ir::Program& program = builder.program();
-    if (const auto counts = bool_of(program, term)) return Choice{*counts, std::nullopt};
+    if (const auto counts = ir::converted_bool(program, term)) return Choice{*counts, std::nullopt};
     const ir::Node node = program[term];
     if (const auto* convert = std::get_if<ir::Convert>(&node.form)) {
         if (program[convert->operand].type != ir::Scalar::Int) return std::nullopt;
@@ -43,8 +36,8 @@ std::optional<Choice> choice_of(ir::Builder& builder, ir::NodeId term) {
     const auto* product = std::get_if<ir::Apply>(&node.form);
     if (!product || product->op != Operator::Multiply) return std::nullopt;
     const ir::NodeId a = product->operands.front(), b = product->operands.back();
-    if (const auto counts = bool_of(program, a)) return Choice{*counts, b};
-    if (const auto counts = bool_of(program, b)) return Choice{*counts, a};
+    if (const auto counts = ir::converted_bool(program, a)) return Choice{*counts, b};
+    if (const auto counts = ir::converted_bool(program, b)) return Choice{*counts, a};
     for (const bool is_first : {true, false}) {
         const auto choice = choice_of(builder, is_first ? a : b);
         if (!choice) continue;

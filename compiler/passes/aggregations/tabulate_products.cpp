@@ -74,7 +74,7 @@ class ProductsOfBools {
                    collect_factors(apply->operands.back(), factors);
         if (const auto* reduce = std::get_if<ir::Reduce>(&node.form); reduce && is_product(id))
             return collect_factors(*reduce, factors);
-        const auto factor = factor_of(node);
+        const auto factor = factor_of(id);
         if (factor) factors.push_back(*factor);
         return factor.has_value();
     }
@@ -92,15 +92,14 @@ class ProductsOfBools {
     }
 
     // select(row[3], 0.5, 1.0), real(row[3]) or real(!row[3])
-    std::optional<ChosenFactor> factor_of(const ir::Node& node) {
-        if (const auto* select = std::get_if<ir::Select>(&node.form)) {
+    std::optional<ChosenFactor> factor_of(ir::NodeId id) {
+        if (const auto* select = std::get_if<ir::Select>(&program_[id].form)) {
             const auto a = ir::constant<double>(program_, select->then_value),
                        b = ir::constant<double>(program_, select->else_value);
             return a && b ? factor_of(select->condition, *a, *b) : std::nullopt;
         }
-        const auto* convert = std::get_if<ir::Convert>(&node.form);
-        const bool is_from_bool = convert && program_[convert->operand].type == ir::Scalar::Bool;
-        return is_from_bool ? factor_of(convert->operand, 1, 0) : std::nullopt;
+        const auto holds = ir::converted_bool(program_, id);
+        return holds ? factor_of(*holds, 1, 0) : std::nullopt;
     }
 
     std::optional<ChosenFactor> factor_of(ir::NodeId condition, double if_true, double if_false) {

@@ -28,12 +28,6 @@ bool is_power_of_two(double value, RealType real) {
     return real == RealType::Float ? is_power_of_two<float>(value) : is_power_of_two<double>(value);
 }
 
-// A bool as a number: 0 or 1, never -0.
-bool is_from_bool(const ir::Program& program, ir::NodeId id) {
-    const auto* form = std::get_if<ir::Convert>(&program[id].form);
-    return form && program[form->operand].type == ir::Scalar::Bool;
-}
-
 bool is_zero(const ir::Program& program, ir::NodeId id) {
     const auto value = ir::constant<double>(program, id);
     return value && std::bit_cast<std::uint64_t>(*value) == 0;
@@ -66,9 +60,9 @@ std::optional<ir::NodeId> bool_of_term(const ir::Program& program, ir::NodeId id
         if (ir::constant<double>(program, a)) return bool_of_term(program, b);
         return ir::constant<double>(program, b) ? bool_of_term(program, a) : std::nullopt;
     }
-    if (!is_from_bool(program, id)) return std::nullopt;
-    const ir::NodeId operand = std::get<ir::Convert>(program[id].form).operand;
-    const auto* apply = std::get_if<ir::Apply>(&program[operand].form);
+    const auto operand = ir::converted_bool(program, id);
+    if (!operand) return std::nullopt;
+    const auto* apply = std::get_if<ir::Apply>(&program[*operand].form);
     return apply && apply->op == Operator::Not ? apply->operands.front() : operand;
 }
 
@@ -99,8 +93,8 @@ std::optional<ir::NodeId> reduced(ir::Builder& builder, const ir::Apply& apply) 
     if (apply.op == Operator::Add || apply.op == Operator::Subtract)
         return one_of_two(builder, apply);
     if (apply.op != Operator::Multiply) return std::nullopt;
-    const bool vanishes = (is_zero(program, a) && is_from_bool(program, b)) ||
-                          (is_zero(program, b) && is_from_bool(program, a));
+    const bool vanishes = (is_zero(program, a) && ir::converted_bool(program, b)) ||
+                          (is_zero(program, b) && ir::converted_bool(program, a));
     const ir::NodeId other = is_zero(program, a) ? b : a;
     if (!vanishes || !ir::is_droppable(builder.properties(other))) return std::nullopt;
     return builder.constant(0.0);

@@ -52,7 +52,8 @@ class PlaceReading {
         if (!store || program_[store->target].scalar != ir::Scalar::Bool) return;
         nest_ = ir::nest_of(loop);
         name_ = program_[store->target].name;
-        if (object_count() > most_objects || reads(store->value, store->target)) return;
+        if (object_count() > most_objects || ir::reads(program_, store->value, store->target))
+            return;
 
         std::map<ir::NodeId, ir::NodeId> spread;
         terms_ = 0;
@@ -77,12 +78,6 @@ class PlaceReading {
     }
 
     std::int64_t object_count() const { return ir::combinations(program_, nest_.variables); }
-
-    bool reads(ir::NodeId id, ir::BufferId buffer) const {
-        return ir::any_node_of(program_, id, [&](ir::NodeId each) {
-            return ir::buffer_read_by(program_[each]) == buffer;
-        });
-    }
 
     // ------------------------------------------------------------------------------ finding
 

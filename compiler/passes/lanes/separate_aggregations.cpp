@@ -64,7 +64,8 @@ class Separation {
         if (!store) return;
         std::vector<ir::NodeId> aggregations;
         const bool all_found = find_aggregations(store->value, nest.variables, aggregations);
-        if (!all_found || aggregations.empty() || reads(store->value, store->target)) return;
+        if (!all_found || aggregations.empty() || ir::reads(program_, store->value, store->target))
+            return;
         const auto is_one = [&](ir::NodeId id) {
             return std::ranges::find(aggregations, id) != aggregations.end();
         };
@@ -127,11 +128,6 @@ class Separation {
         if (!apply) return false;
         if (apply->op == Operator::And) return std::ranges::any_of(apply->operands, is_rare_too);
         return apply->op == Operator::Or && std::ranges::all_of(apply->operands, is_rare_too);
-    }
-    bool reads(ir::NodeId id, ir::BufferId buffer) const {
-        return ir::any_node_of(program_, id, [&](ir::NodeId each) {
-            return ir::buffer_read_by(program_[each]) == buffer;
-        });
     }
     // Where chance decides whether a branch is taken, or goes on in it, jumps are mispredicted.
     bool may_fill_then(const ir::Select& select) const {
