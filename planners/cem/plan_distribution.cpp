@@ -39,11 +39,9 @@ Distribution::Distribution(const ActionSpace& space, Spread spread)
       defaults_(indices()),
       usual_(indices()) {
     for (std::size_t k = 0; k < repetitions * reals(); ++k) {
-        using Range = RealHead::Range;
-        const Range range = space.reals[k % reals()].range;
-        const bool is_bent = range == Range::AboveLower || range == Range::BelowUpper;
-        most_.push_back(range == Range::Bounded ? 1 : most_number);
-        least_.push_back(is_bent ? -half_bend : -most_.back());
+        const RealHead::Range range = space.reals[k % reals()].range;
+        most_.push_back(range == RealHead::Range::Bounded ? 1 : most_number);
+        least_.push_back(is_bent(range) ? -half_bend : -most_.back());
     }
     repeated_means_.resize(most_.size());
     repeated_deviations_.resize(most_.size());

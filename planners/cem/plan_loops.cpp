@@ -64,12 +64,12 @@ void RealScales::add(const RealScale& real) {
     constexpr float infinity = std::numeric_limits<float>::infinity();
     constexpr double greatest = std::numeric_limits<float>::max();
     const bool is_bounded = real.range == Range::Bounded;
-    const bool is_bent = real.range == Range::AboveLower || real.range == Range::BelowUpper;
+    const bool bends = is_bent(real.range);
     is_short = is_short && planners::is_short(real);
     any_rounds = any_rounds || real.rounds;
-    least_number.push_back(is_bent ? half_bend : -infinity);
-    shift.push_back(is_bent ? -half_bend : is_bounded ? 1.0f : 0.0f);
-    twice_bend.push_back(is_bent ? 2 * half_bend : 0.0f);
+    least_number.push_back(bends ? half_bend : -infinity);
+    shift.push_back(bends ? -half_bend : is_bounded ? 1.0f : 0.0f);
+    twice_bend.push_back(bends ? 2 * half_bend : 0.0f);
     rounds.push_back(real.rounds ? 1.0f : 0.0f);
     const double base = real.range == Range::Free         ? real.centre
                         : real.range == Range::BelowUpper ? real.upper

@@ -30,11 +30,24 @@ struct Rows {
     const double* weights;
 };
 inline constexpr std::size_t slack = 8;
+
+// 32 bits of a counter and a key, each of which depends on all of theirs ("lowbias32" of Chris
+// Wellons' hash prospector, 2018). Inlined, since each instruction set compiles it for its own.
+[[gnu::always_inline]] inline std::uint32_t noise_bits(std::uint32_t key, std::size_t counter) {
+    std::uint32_t bits = key + static_cast<std::uint32_t>(counter) * 0x9E3779B9u;
+    bits = (bits ^ (bits >> 16)) * 0x7FEB352Du;
+    bits = (bits ^ (bits >> 15)) * 0x846CA68Bu;
+    return bits ^ (bits >> 16);
+}
 inline constexpr std::int32_t rank_count = 1 << 24;
 
 // Where plans' numbers lie between -half_bend and half_bend, values with one bound are bent: they
 // go on from the bound as a parabola. 4 log 2: so that 0 has the value that learners give it.
 inline constexpr float half_bend = 2.7725887f;
+inline bool is_bent(solvers::RealHead::Range range) {
+    using Range = solvers::RealHead::Range;
+    return range == Range::AboveLower || range == Range::BelowUpper;
+}
 
 // Reals of plans lie one plan after the other. What belongs to a real of an action is repeated for
 // so many plans, so that loops over vectors of any length need not know where a plan begins.

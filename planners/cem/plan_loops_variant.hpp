@@ -1,15 +1,6 @@
 // PlanLoops for one instruction set. Included once for each, within a namespace of its own;
 // includes nothing that would be compiled for it.
 
-// 32 bits of a counter and a key, each of which depends on all of theirs ("lowbias32" of Chris
-// Wellons' hash prospector, 2018).
-inline std::uint32_t noise_bits(std::uint32_t key, std::size_t counter) {
-    std::uint32_t bits = key + static_cast<std::uint32_t>(counter) * 0x9E3779B9u;
-    bits = (bits ^ (bits >> 16)) * 0x7FEB352Du;
-    bits = (bits ^ (bits >> 15)) * 0x846CA68Bu;
-    return bits ^ (bits >> 16);
-}
-
 inline void next_numbers(const NumberNoise& noise, std::size_t count, float* __restrict numbers) {
     const float *const old = noise.old, *const fresh = noise.fresh, *const drawn = noise.drawn;
     for (std::size_t k = 0; k < count; ++k) numbers[k] = old[k] * numbers[k] + fresh[k] * drawn[k];
@@ -90,8 +81,8 @@ inline void keep_habits(const std::int32_t* habits, const std::int32_t* ranks, s
 
 // In place of softplus, values with one bound are 0, x, and between them the parabola that meets
 // both with their slopes. It differs by 0.076 at most, and unlike softplus it reaches the bound.
-// The values of `least_number` and `shift` are those of x beyond the parabola; where there is none,
-// twice_bend is 0.
+// The values of `least_number` and `shift` are those of x beyond the parabola. Reals without a
+// parabola have a twice_bend of 0.
 inline float bent(float x, float least_number, float shift, float twice_bend) {
     const float within = clamped(x + half_bend, 0.0f, twice_bend);
     return within * within * (1 / (4 * half_bend)) +

@@ -8,15 +8,6 @@
 namespace rddlc::planners {
 namespace {
 
-// 32 bits, each of which depends on all of the counter's ("lowbias32" of Chris Wellons' hash
-// prospector, 2018).
-std::uint32_t noise_bits(std::uint32_t counter) {
-    std::uint32_t bits = counter * 0x9E3779B9u;
-    bits = (bits ^ (bits >> 16)) * 0x7FEB352Du;
-    bits = (bits ^ (bits >> 15)) * 0x846CA68Bu;
-    return bits ^ (bits >> 16);
-}
-
 // The sum of three numbers of 0 .. 1023 has the mean 1534.5 and the deviation 512.
 float bell_of(std::uint32_t bits) {
     const std::uint32_t sum = (bits & 1023) + ((bits >> 10) & 1023) + ((bits >> 20) & 1023);
@@ -44,7 +35,7 @@ struct NoiseTables {
         // Exponents are lowered by 7 and raised again, since power_of_two() takes none above 0.
         constexpr float octaves = 1.5f * 1.44269504f, most_octaves = 7, scale = 128;
         for (std::uint32_t k = 0; k < size; ++k) {
-            bells[k] = bell_of(noise_bits(k));
+            bells[k] = bell_of(noise_bits(0, k));
             widths[k] = scale * power_of_two(octaves * bells[k] - most_octaves);
         }
     }

@@ -38,7 +38,7 @@ double from_ordered(std::int64_t place) {
 }
 
 // A limit above which there are at least `wanted` values and, unless many are equal, few more.
-// There is none above -inf that fewer values have.
+// It is -inf where fewer values than that are above -inf.
 double limit_of_best(const PlanLoops& loops, std::span<const double> values, std::size_t wanted) {
     constexpr std::size_t few = 8;
     std::int64_t low = ordered(-std::numeric_limits<double>::infinity());
