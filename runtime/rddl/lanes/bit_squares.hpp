@@ -4,12 +4,25 @@
 
 #include <rddl/lanes/simd.hpp>
 
+#include <array>
 #include <cstdint>
 
-#if defined(RDDL_SIMD_AVX512) && defined(__AVX512VBMI__) && defined(__GFNI__)
-#define RDDL_SIMD_SQUARES
+#ifdef RDDL_SIMD_AVX512
 
 namespace rddl::simd::inline RDDL_SIMD_LEVEL {
+
+// The places from which the elements of a register come when they are permuted.
+template <class Element, int count, class Source>
+inline constexpr auto sources = [] {
+    struct alignas(64) {
+        std::array<Element, count> of;
+    } all{};
+    for (int i = 0; i < count; ++i) all.of[i] = static_cast<Element>(Source{}(i));
+    return all;
+}();
+
+#if defined(__AVX512VBMI__) && defined(__GFNI__)
+#define RDDL_SIMD_SQUARES
 
 // Byte i of a word is row 7 - i of a square, and row i of the result.
 inline __m512i transposed_from_below(__m512i squares) {
@@ -17,24 +30,15 @@ inline __m512i transposed_from_below(__m512i squares) {
     return _mm512_maskz_gf2p8affine_epi64_epi8(~std::uint64_t{0}, unit, squares, 0);
 }
 
-// Byte i of the result is byte place(i) of a register, or of two, one behind the other.
-struct alignas(64) BytePlaces {
-    std::uint8_t of[64];
-};
-template <class Place>
-inline constexpr BytePlaces byte_places = [] {
-    BytePlaces all{};
-    for (int i = 0; i < 64; ++i) all.of[i] = static_cast<std::uint8_t>(Place{}(i));
-    return all;
-}();
-template <class Place>
-[[gnu::always_inline]] inline __m512i permuted_bytes(__m512i a, Place) {
-    const __m512i places = _mm512_load_si512(&byte_places<Place>);
+// Byte i of the result is byte source(i) of a register, or of two, one behind the other.
+template <class Source>
+[[gnu::always_inline]] inline __m512i permuted_bytes(__m512i a, Source) {
+    const __m512i places = _mm512_load_si512(&sources<std::uint8_t, 64, Source>);
     return _mm512_maskz_permutexvar_epi8(~std::uint64_t{0}, places, a);
 }
-template <class Place>
-[[gnu::always_inline]] inline __m512i permuted_bytes(__m512i a, __m512i b, Place) {
-    const __m512i places = _mm512_load_si512(&byte_places<Place>);
+template <class Source>
+[[gnu::always_inline]] inline __m512i permuted_bytes(__m512i a, __m512i b, Source) {
+    const __m512i places = _mm512_load_si512(&sources<std::uint8_t, 64, Source>);
     return _mm512_maskz_permutex2var_epi8(~std::uint64_t{0}, a, places, b);
 }
 
@@ -93,6 +97,8 @@ template <int count>
                   return i / 32 * 64 + 8 * (7 - i % 8) + i / 8 % 4 + 4;
               }));
 }
+
+#endif
 
 }  // namespace rddl::simd::inline RDDL_SIMD_LEVEL
 

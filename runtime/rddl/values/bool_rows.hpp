@@ -49,16 +49,6 @@ inline BitRows rows_of(const BitColumns& columns) {
 
 #elif defined(RDDL_SIMD_AVX512)
 
-// The sources of bytes and of pairs of bytes when 8 rows of 8 bytes become 8 columns, or columns
-// rows.
-template <class Element, int count, class Source>
-inline constexpr auto sources = [] {
-    struct alignas(64) {
-        std::array<Element, count> of;
-    } all{};
-    for (int i = 0; i < count; ++i) all.of[i] = static_cast<Element>(Source{}(i));
-    return all;
-}();
 inline __m512i shuffled_bytes(__m512i a, const void* places) {
     return _mm512_maskz_shuffle_epi8(~std::uint64_t{0}, a, _mm512_load_si512(places));
 }
@@ -73,10 +63,10 @@ inline BitColumns columns_of(const BitRows& rows) {
     constexpr auto pairs = [](int i) {
         return i % 4 * 8 + i / 4;
     };
-    const auto two_rows_together = shuffled_bytes(simd::reinterpret<__m512i>(rows),
-                                                  &sources<std::uint8_t, 64, decltype(bytes)>);
+    const auto two_rows_together = shuffled_bytes(
+        simd::reinterpret<__m512i>(rows), &simd::sources<std::uint8_t, 64, decltype(bytes)>);
     const auto all_together =
-        permuted_pairs(two_rows_together, &sources<std::uint16_t, 32, decltype(pairs)>);
+        permuted_pairs(two_rows_together, &simd::sources<std::uint16_t, 32, decltype(pairs)>);
     return simd::reinterpret<BitColumns>(transposed(simd::reinterpret<simd::Words>(all_together)));
 }
 inline BitRows rows_of(const BitColumns& columns) {
@@ -87,10 +77,11 @@ inline BitRows rows_of(const BitColumns& columns) {
         return i % 8 * 2 + i % 16 / 8;
     };
     const auto transposed_squares = transposed(simd::reinterpret<simd::Words>(columns));
-    const auto two_rows_together = permuted_pairs(simd::reinterpret<__m512i>(transposed_squares),
-                                                  &sources<std::uint16_t, 32, decltype(pairs)>);
+    const auto two_rows_together =
+        permuted_pairs(simd::reinterpret<__m512i>(transposed_squares),
+                       &simd::sources<std::uint16_t, 32, decltype(pairs)>);
     return simd::reinterpret<BitRows>(
-        shuffled_bytes(two_rows_together, &sources<std::uint8_t, 64, decltype(bytes)>));
+        shuffled_bytes(two_rows_together, &simd::sources<std::uint8_t, 64, decltype(bytes)>));
 }
 
 #else

@@ -179,7 +179,7 @@ struct Intervals {
         size <= most_counted ? size : std::bit_width(static_cast<std::size_t>(size));
 
     static constexpr bool is_decided(double threshold) { return threshold <= 0 || threshold >= 1; }
-    // How many number in [0, 1) decide, at most.
+    // How many of a row numbers in [0, 1) decide, at most.
     static constexpr std::size_t most_open = [] {
         std::size_t most = 0;
         mapped_rows(thresholds, [&](const auto& row) {

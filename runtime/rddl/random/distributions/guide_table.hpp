@@ -38,8 +38,8 @@ struct GuideTable {
         return std::size_t{0};
     }();
 
-    // How many thresholds the numbers of each part have reached, and the one inside of the part; 2
-    // where there is none.
+    // How many thresholds the numbers of each part have reached, and the one inside of the part. A
+    // part without a threshold has 2, which no number reaches.
     static constexpr std::array<std::int64_t, parts> reached = [] {
         std::array<std::int64_t, parts> counts{};
         for (std::size_t part = 0; part < parts; ++part)
