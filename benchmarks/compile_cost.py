@@ -49,7 +49,7 @@ class Cost:
     compile_megabytes: float  # largest resident size of rddlc
     lines: int  # of the emitted file
     code_lines: int  # without what stands in the initialisers of tables and lists of objects
-    # Of both ways to a shared object; None with --no-build.
+    # The two ways to a shared object are not measured with --no-build.
     object_seconds: float | None = None  # rddlc -o sim.so
     build_seconds: float | None = None  # the C++ compiler, from sim.cpp
 
