@@ -116,7 +116,8 @@ class Sessions(PageTest):
               () => new Promise((yes, no) => {{ const s = document.createElement("script"); s.src = "{self.origin}/server.js"; s.onload = yes; s.onerror = no; document.body.append(s); }}),
               () => new Promise((yes, no) => {{ const w = new WebSocket("ws://127.0.0.1:{self.program.port}/"); w.onopen = yes; w.onerror = no; }})];
             document.getElementById("form").submit();
-            Promise.allSettled(tries.map((each) => each())).then((all) => {{ window.outcome = all.map((each) => each.status); }});
+            // Once the frame is there: until then its document is an empty one, which the attacker may read.
+            window.onload = () => Promise.allSettled(tries.map(async (each) => each())).then((all) => {{ window.outcome = all.map((each) => each.status); }});
             </script>""".encode()
 
         class Evil(http.server.BaseHTTPRequestHandler):
