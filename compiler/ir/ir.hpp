@@ -163,7 +163,8 @@ struct Search {
 struct Bits {
     BufferId buffer;
     std::int64_t first;
-    std::vector<NodeId> indices = {};  // Int, of the leading dimensions, in range by construction
+    // Int, of the leading dimensions, the same in all environments, in range by construction.
+    std::vector<NodeId> indices = {};
     bool operator==(const Bits&) const = default;
 };
 // The bits that one mask at least has, of the masks that are chosen by the bits of an Int: bit i

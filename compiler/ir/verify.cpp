@@ -260,12 +260,16 @@ class Verifier {
         const Buffer& buffer = program_[form.buffer];
         return result == Scalar::Int && buffer.scalar == Scalar::Bool &&
                buffer.storage != Storage::Constant && form.first >= 0 && form.first % 64 == 0 &&
-               are_leading(buffer, form.indices) &&
+               are_leading(buffer, form.indices) && are_uniform(form.indices) &&
                form.first < buffer.row_size(form.indices.size());
     }
     bool are_leading(const Buffer& buffer, const std::vector<NodeId>& indices) const {
         return indices.size() <= buffer.shape.size() &&
                std::ranges::all_of(indices, [&](NodeId id) { return type(id) == Scalar::Int; });
+    }
+    bool are_uniform(const std::vector<NodeId>& indices) const {
+        return std::ranges::all_of(indices,
+                                   [&](NodeId id) { return properties_[id.index].uniform; });
     }
     bool fits(const Union& form, Scalar result) const {
         const Buffer& masks = program_[form.masks];

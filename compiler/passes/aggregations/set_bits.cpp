@@ -120,14 +120,16 @@ class BitSetting {
         return builder_.constant(static_cast<std::int64_t>(word));
     }
 
-    // The elements of a row, in their order.
+    // The elements of a row that is the same one in all environments, in their order.
     std::optional<ir::NodeId> bits_of(const ir::Load& load) {
         const std::vector<ir::NodeId> row(load.indices.begin(), load.indices.end() - 1);
         const bool is_row =
             program_[load.buffer].storage != ir::Storage::Constant &&
             load.indices.back() == builder_.index(element_) &&
             program_[load.buffer].shape.back() == size() &&
-            std::ranges::none_of(row, [&](ir::NodeId index) { return depends_on_element(index); });
+            std::ranges::all_of(row, [&](ir::NodeId index) {
+                return builder_.properties(index).uniform && !depends_on_element(index);
+            });
         return is_row ? std::optional(builder_.bits(load.buffer, 0, row)) : std::nullopt;
     }
 

@@ -25,7 +25,7 @@ constexpr std::int64_t longest_row = 64;  // the bits of an int
 // A factor that element `element` of a row of bools decides.
 struct ChosenFactor {
     ir::BufferId buffer;
-    std::vector<ir::NodeId> row;  // the leading indices
+    std::vector<ir::NodeId> row;  // the leading indices, the same in all environments
     std::int64_t element;
     double if_true, if_false;
 };
@@ -111,14 +111,13 @@ class ProductsOfBools {
         if (!load || load->indices.empty()) return std::nullopt;
         const ir::Buffer& buffer = program_[load->buffer];
         const auto element = ir::constant<std::int64_t>(program_, load->indices.back());
-        if (!element || buffer.storage == ir::Storage::Constant ||
+        const std::vector<ir::NodeId> row(load->indices.begin(), load->indices.end() - 1);
+        const bool is_one_row = std::ranges::all_of(
+            row, [&](ir::NodeId index) { return builder_.properties(index).uniform; });
+        if (!element || !is_one_row || buffer.storage == ir::Storage::Constant ||
             buffer.shape.back() > longest_row)
             return std::nullopt;
-        return ChosenFactor{load->buffer,
-                            {load->indices.begin(), load->indices.end() - 1},
-                            *element,
-                            if_true,
-                            if_false};
+        return ChosenFactor{load->buffer, row, *element, if_true, if_false};
     }
 
     // In one row.

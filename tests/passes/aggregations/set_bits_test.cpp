@@ -45,6 +45,19 @@ TEST(SetBits, LooksUpTheBitOfEachInt) {
     EXPECT_TRUE(table_text(program, "seen-bit").starts_with("seen-bit[20]: int = {1 2 4 8 "));
 }
 
+// Environments of a pack would take the bits of different rows.
+TEST(SetBits, LeavesRowsThatTheStateChooses) {
+    Problem problem = dice(rolled + " | old(which, ?o)");
+    problem.pvariables +=
+        "which : { state-fluent, pair };\n"
+        "old(pair, obj) : { state-fluent, bool, default = false };";
+    problem.cpfs += "which' = which; old'(?d, ?o) = old(?d, ?o);";
+    problem.init_state = "which = a1;";
+    passes::Report report;
+    valid(passes::set_bits(grounded_with_many(problem), report));
+    EXPECT_EQ(report["rows of bools whose bits are set"], 0);
+}
+
 TEST(SetBits, GivesTheRewardARow) {
     Problem problem = dice("seen(?o)");
     problem.reward = "sum_{?o : obj} [if (" + rolled + ") then 2.5 else 1.0]";

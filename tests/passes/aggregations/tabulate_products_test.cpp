@@ -47,5 +47,17 @@ TEST(TabulateProducts, LeavesOtherProducts) {
     EXPECT_EQ(few.before, few.after);
 }
 
+// Environments of a pack would take the bits of different rows.
+TEST(TabulateProducts, LeavesRowsThatTheStateChooses) {
+    Problem problem = with_tables("prod_{?a : obj} [if (old(which, ?a)) then 0.5 else 0.75]");
+    problem.pvariables +=
+        "which : { state-fluent, pair };\n"
+        "old(pair, obj) : { state-fluent, bool, default = false };";
+    problem.cpfs += "which' = which; old'(?d, ?o) = old(?d, ?o);";
+    problem.init_state = "which = a1;";
+    const Texts x = of_x(grounded_with_many(problem), passes::tabulate_products);
+    EXPECT_EQ(x.before, x.after);
+}
+
 }  // namespace
 }  // namespace rddlc

@@ -130,6 +130,27 @@ TEST(Interval, LooksUpThoseThresholdsThatNumbersDecide) {
     }
 }
 
+constexpr std::array<std::array<float, 4>, 2> mostly_decided_floats = {
+    {{0.0f, 0.0f, 0.2f, 1.0f}, {0.7f, 1.0f, 1.0f, 1.0f}}};
+
+TEST(Interval, LooksUpFloatsInPacks) {
+    static_assert(sample::detail::Intervals<mostly_decided_floats>::has_few_open);
+    using L = Pack<16, float>;
+    using Word = Lanes<std::uint64_t, L::width>;
+    auto context = Context<L>::of(Word{std::uint64_t{5}}, Word{std::uint64_t{7}},
+                                  Word{std::uint64_t{1}}, true);
+    L::Int row{0};
+    for (int lane = 0; lane < L::width; ++lane) row.set(lane, lane % 2);
+    for (int i = 0; i < 100; ++i) {
+        const auto u = uniform_at(context, {0, i});
+        const auto chosen = sample::interval<mostly_decided_floats>(context, {0, i}, row);
+        for (int lane = 0; lane < L::width; ++lane)
+            EXPECT_EQ(chosen[lane],
+                      std::ranges::count_if(mostly_decided_floats[lane % 2],
+                                            [&](float threshold) { return threshold <= u[lane]; }));
+    }
+}
+
 // The draws of places that stand alone, or among those of other sites, have the same numbers.
 TEST(LonePlace, ChangesNoNumber) {
     constexpr int n = 16;

@@ -145,15 +145,16 @@ typename L::Int unnormalised_discrete_over(Context<L>& context, SomePlace place,
 
 namespace detail {
 
-// The length of the rows of nested arrays, their last dimension.
+// The rows of nested arrays, which are their last dimension.
 template <class T>
-struct RowLength;
+struct RowsOf;
 template <class T, std::size_t n>
-struct RowLength<std::array<T, n>> {
-    static constexpr Index value = static_cast<Index>(n);
+struct RowsOf<std::array<T, n>> {
+    using Element = T;
+    static constexpr Index length = static_cast<Index>(n);
 };
 template <class T, std::size_t m, std::size_t n>
-struct RowLength<std::array<std::array<T, m>, n>> : RowLength<std::array<T, m>> {};
+struct RowsOf<std::array<std::array<T, m>, n>> : RowsOf<std::array<T, m>> {};
 
 inline constexpr Index most_counted = 8;  // longer rows are searched
 
@@ -173,18 +174,21 @@ constexpr auto mapped_rows(const std::array<T, n>& table, const Function& f) {
 // any.
 template <const auto& thresholds>
 struct Intervals {
-    using Table = std::remove_cvref_t<decltype(thresholds)>;
-    static constexpr Index size = RowLength<Table>::value;
+    using Rows = RowsOf<std::remove_cvref_t<decltype(thresholds)>>;
+    using Threshold = typename Rows::Element;
+    static constexpr Index size = Rows::length;
     static constexpr Index steps =
         size <= most_counted ? size : std::bit_width(static_cast<std::size_t>(size));
 
-    static constexpr bool is_decided(double threshold) { return threshold <= 0 || threshold >= 1; }
+    static constexpr bool is_decided(Threshold threshold) {
+        return threshold <= 0 || threshold >= 1;
+    }
     // How many of a row numbers in [0, 1) decide, at most.
     static constexpr std::size_t most_open = [] {
         std::size_t most = 0;
         mapped_rows(thresholds, [&](const auto& row) {
             std::size_t open = 0;
-            for (const double threshold : row) open += !is_decided(threshold);
+            for (const Threshold threshold : row) open += !is_decided(threshold);
             return most = std::max(most, open);
         });
         return most;
@@ -194,13 +198,13 @@ struct Intervals {
 
     static constexpr auto reached = mapped_rows(thresholds, [](const auto& row) {
         return static_cast<std::int64_t>(
-            std::count_if(row.begin(), row.end(), [](double each) { return each <= 0; }));
+            std::count_if(row.begin(), row.end(), [](Threshold each) { return each <= 0; }));
     });
     static constexpr auto open = mapped_rows(thresholds, [](const auto& row) {
-        std::array<double, most_open> few{};
-        few.fill(1.0);
+        std::array<Threshold, most_open> few{};
+        few.fill(1);
         std::copy_if(row.begin(), row.end(), few.begin(),
-                     [](double each) { return !is_decided(each); });
+                     [](Threshold each) { return !is_decided(each); });
         return few;
     });
 };
