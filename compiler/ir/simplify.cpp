@@ -293,15 +293,22 @@ class Simplifier {
     // int(b) < 1 where b is false: a comparison with a constant that tells 0 from 1.
     std::optional<NodeId> compared_bool() {
         const auto condition = converted_bool(builder_.program(), a_);
-        const auto* limit = std::get_if<Constant>(&node(b_).form);
-        if (!condition || !limit) return std::nullopt;
+        const auto* constant = std::get_if<Constant>(&node(b_).form);
+        if (!condition || !constant) return std::nullopt;
+        const Value limit = as_in_a_step(constant->value);
         // Without nodes, which would be left in the program where nothing is simplified.
         const auto result_for = [&](bool value) {
-            return fold(op_, std::vector{convert(value, node(a_).type), limit->value});
+            return fold(op_, std::vector{convert(value, node(a_).type), limit});
         };
         const auto if_true = result_for(true), if_false = result_for(false);
         if (!if_true || !if_false || *if_true == *if_false) return std::nullopt;
         return *if_true == Value(true) ? *condition : builder_.apply(Operator::Not, {*condition});
+    }
+    // Steps with --real=float round constants.
+    Value as_in_a_step(const Value& value) const {
+        const auto* real = std::get_if<double>(&value);
+        if (!real || builder_.program().real != RealType::Float) return value;
+        return static_cast<double>(static_cast<float>(*real));
     }
 
     std::optional<NodeId> equality() {

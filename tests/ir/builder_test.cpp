@@ -200,6 +200,14 @@ TEST_F(BuilderTest, SimplifiesLogic) {
     EXPECT_EQ(w.apply(Operator::Equivalent, w.boolean(false), up()), w.apply(Operator::Not, up()));
 }
 
+// The float next to this limit is 1.
+TEST_F(BuilderTest, ComparesBoolsWithFloatsWhereStepsDo) {
+    const NodeId number = w.builder().convert(up(), Scalar::Real), limit = w.real(1.00000001);
+    EXPECT_NE(w.apply(Operator::GreaterEqual, number, limit), up());
+    w.program.real = RealType::Float;
+    EXPECT_EQ(w.apply(Operator::GreaterEqual, number, limit), up());
+}
+
 TEST_F(BuilderTest, TestsBoolsInPlaceOfTheirNumbers) {
     const NodeId number = w.builder().convert(up(), Scalar::Int);
     EXPECT_EQ(w.apply(Operator::Equal, number, w.integer(1)), up());

@@ -8,7 +8,6 @@
 #include "ir/action_bools.hpp"
 #include "ir/call.hpp"
 #include "ir/row_of_bools.hpp"
-#include "ir/shares.hpp"
 #include "support/match.hpp"
 
 #include <algorithm>
@@ -196,12 +195,17 @@ Expression Expressions::lower(const ir::Node&, const ir::Sample& sample) {
 }
 
 Expression Expressions::lower(const ir::Node& node, const ir::Discrete& discrete) {
-    return discrete_call(node, braces(weights_type(discrete), all_of(listed_weights(node))));
+    const ListedWeights listed = listed_weights(node);
+    return discrete_call(discrete, listed, braces(weights_type(discrete), all_of(listed.weights)));
 }
 
-std::vector<ir::NodeId> Expressions::listed_weights(const ir::Node& draw) const {
-    const auto shares = ir::shares_of(unit_.program, unit_.properties, draw);
-    return shares ? shares->weights : std::get<ir::Discrete>(draw.form).weights;
+Expressions::ListedWeights Expressions::listed_weights(const ir::Node& draw) const {
+    if (auto shares = shares_of(draw)) return {std::move(shares->weights), shares->total};
+    return {std::get<ir::Discrete>(draw.form).weights, std::nullopt};
+}
+
+std::optional<ir::Shares> Expressions::shares_of(const ir::Node& draw) const {
+    return ir::shares_of(unit_.program, unit_.properties, draw);
 }
 
 std::string Expressions::weights_type(const ir::Discrete& discrete) {
@@ -210,13 +214,13 @@ std::string Expressions::weights_type(const ir::Discrete& discrete) {
 }
 
 // "rddl::sample::discrete_of_shares(context, {0, p}, total, weights)"
-Expression Expressions::discrete_call(const ir::Node& draw, Expression weights) {
-    const auto& discrete = std::get<ir::Discrete>(draw.form);
+Expression Expressions::discrete_call(const ir::Discrete& discrete, const ListedWeights& listed,
+                                      Expression weights) {
     std::string function = discrete.normalise ? "unnormalised_discrete" : "discrete";
     tree::Expressions arguments = place_of_draw(discrete.place);
-    if (const auto shares = ir::shares_of(unit_.program, unit_.properties, draw)) {
+    if (listed.total) {
         function += "_of_shares";
-        arguments.push_back(lower(shares->total));
+        arguments.push_back(lower(*listed.total));
     }
     arguments.push_back(std::move(weights));
     return tree::call("rddl::sample::" + function, std::move(arguments));
@@ -312,8 +316,6 @@ std::optional<Expression> Expressions::count_of_true(const ir::Node& binder) {
 }
 
 ir::NodeId Expressions::bound_value(const ir::Node& binder) const {
-    if (const auto shares = ir::shares_of(unit_.program, unit_.properties, binder))
-        return shares->weights.front();
     const ir::Reduce* sum = over_true(binder);
     if (!sum) return ir::operands_of(binder).front();
     return std::get<ir::Select>(unit_.program[sum->body].form).then_value;
@@ -325,8 +327,6 @@ std::string Expressions::binder_function(const ir::Node& binder) {
         const std::string function = "rddl::" + function_of(reduce->op);
         return several_ ? function : function + "<" + type(binder.type) + ">";
     }
-    if (ir::shares_of(unit_.program, unit_.properties, binder))
-        return "rddl::sample::discrete_of_shares_over";
     const bool normalises = std::get<ir::DiscreteOver>(binder.form).normalise;
     return normalises ? "rddl::sample::unnormalised_discrete_over" : "rddl::sample::discrete_over";
 }
@@ -346,8 +346,6 @@ tree::Expressions Expressions::binder_arguments(const ir::Node& binder) {
     const auto& discrete = std::get<ir::DiscreteOver>(binder.form);
     tree::Expressions arguments = place_of_draw(discrete.place);
     arguments.push_back(word(unit_.size_of(unit_.program[discrete.variable])));
-    if (const auto shares = ir::shares_of(unit_.program, unit_.properties, binder))
-        arguments.push_back(lower(shares->total));
     return arguments;
 }
 

@@ -6,6 +6,7 @@
 #include "emit/names/identifiers.hpp"
 #include "ir/ir.hpp"
 #include "ir/nest.hpp"
+#include "ir/shares.hpp"
 
 #include <cstddef>
 #include <limits>
@@ -59,21 +60,30 @@ class Expressions {
     template <class Body>
     tree::Expression lower_binder(const ir::Node& binder, Body&& body) {
         if (auto count = count_of_true(binder)) return *std::move(count);
+        const auto shares = shares_of(binder);
         tree::Expressions arguments = binder_arguments(binder);
+        if (shares) arguments.push_back(lower(shares->total));
         const Mark before = mark();
         const ir::VariableId variable = *ir::bound_variable(binder);
         enter(variable);
-        const ir::NodeId value = bound_value(binder);
+        const ir::NodeId value = shares ? shares->weights.front() : bound_value(binder);
         arguments.push_back({tree::Lambda{{parameter(variable, value)}, body(value)}});
         return_to(before);
-        return tree::call(binder_function(binder), std::move(arguments));
+        return tree::call(
+            shares ? "rddl::sample::discrete_of_shares_over" : binder_function(binder),
+            std::move(arguments));
     }
     // The return type of a lambda: an int constant must not become C++'s int.
     tree::Expression result(ir::NodeId id);
-    // One call of a draw from listed weights, given their array.
-    tree::Expression discrete_call(const ir::Node& draw, tree::Expression weights);
-    // The weights, or those that the draw divides by their total.
-    std::vector<ir::NodeId> listed_weights(const ir::Node& draw) const;
+    // The weights of a draw that lists them, or those that it divides by their total.
+    struct ListedWeights {
+        std::vector<ir::NodeId> weights;
+        std::optional<ir::NodeId> total;
+    };
+    ListedWeights listed_weights(const ir::Node& draw) const;
+    // One call of such a draw, given the array of its weights.
+    tree::Expression discrete_call(const ir::Discrete& discrete, const ListedWeights& listed,
+                                   tree::Expression weights);
     std::string weights_type(const ir::Discrete& discrete);
 
     // A named node is lowered to its name from then on.
@@ -132,6 +142,7 @@ class Expressions {
     tree::Expression inline_binder(const ir::Node& node);
     tree::Expression call(std::string_view function, const std::vector<ir::NodeId>& operands,
                           const std::optional<ir::Place>& place = {});
+    std::optional<ir::Shares> shares_of(const ir::Node& draw) const;
     std::string binder_function(const ir::Node& binder);
     // The sum, if it visits true elements alone.
     const ir::Reduce* over_true(const ir::Node& binder) const;

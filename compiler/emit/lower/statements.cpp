@@ -404,7 +404,7 @@ void FunctionBody::prepare_branch(const ir::Select& select) {
 }
 
 void FunctionBody::prepare_weights(const ir::Node& draw) {
-    for (const ir::NodeId weight : expressions_.listed_weights(draw))
+    for (const ir::NodeId weight : expressions_.listed_weights(draw).weights)
         prepare({width(tree::element(tree::word("weights"), tree::word("0"))) + assignment_width},
                 weight);
 }
@@ -512,15 +512,16 @@ tree::Expression FunctionBody::branch(const ir::Select& select) {
 // Too many weights for one line are set one by one.
 tree::Expression FunctionBody::discrete(const ir::Node& draw) {
     const std::string name = expressions_.claim("weights");
-    const std::string type = expressions_.weights_type(std::get<ir::Discrete>(draw.form));
-    const std::vector<ir::NodeId> weights = expressions_.listed_weights(draw);
+    const auto& form = std::get<ir::Discrete>(draw.form);
+    const std::string type = expressions_.weights_type(form);
+    const Expressions::ListedWeights listed = expressions_.listed_weights(draw);
     statements_.push_back({tree::Expression{tree::Declared{type, name}}});
-    for (std::size_t k = 0; k < weights.size(); ++k) {
+    for (std::size_t k = 0; k < listed.weights.size(); ++k) {
         tree::Expression weight = tree::element(tree::word(name), tree::number(k));
         const Use use{width(weight) + assignment_width};
-        statements_.push_back({tree::Assign{std::move(weight), value(use, weights[k])}});
+        statements_.push_back({tree::Assign{std::move(weight), value(use, listed.weights[k])}});
     }
-    return expressions_.discrete_call(draw, tree::word(name));
+    return expressions_.discrete_call(form, listed, tree::word(name));
 }
 
 template <class Add>
