@@ -83,6 +83,7 @@ REFERENCES = {
     "SupplyChain_or": Reference(OBJECTS, "0", "supply_chain", "SupplyChain"),
     "WildlifePreserve_p10_ippc2018": Reference(OBJECTS, "10", "wildlife_preserve", "WildlifePreserve"),
     "Manufacturer_ippc2018": Reference(OBJECTS, "13", "manufacturer", "Manufacturer"),
+    "CooperativeRecon_ippc2018": Reference(OBJECTS, "11", "cooperative_recon", "CooperativeRecon"),
     "Zombies_arcade": Reference(OBJECTS, "2", "zombies", "Zombies"),
 }
 LEAST_RATIO = 0.9

@@ -402,6 +402,23 @@ def academic_advising_2018() -> list[str]:
     ]
 
 
+def cooperative_recon() -> list[str]:
+    values = values_of("CooperativeRecon_ippc2018", "11")
+    assert np.array_equal(values["HAS_TOOL"], [[1, 1, 0, 0, 0], [0, 0, 1, 1, 1]])
+    kinds = [list(np.flatnonzero(values[f"{kind}_TOOL"])) for kind in ("WATER", "LIFE", "CAMERA")]
+    assert kinds == [[0, 2], [1, 3], [4]]
+    for name, axis, step in (("LEFT", "x", -1), ("RIGHT", "x", 1), ("DOWN", "y", -1), ("UP", "y", 1)):
+        assert np.array_equal(values[f"ADJACENT_{name}"], np.eye(6, k=-step)), f"steps along {axis}"
+    names = ("DETECT_PROB", "DETECT_PROB_DAMAGED", "DETECT_PROB_WITH_SUPPORT", "DETECT_PROB_DAMAGED_WITH_SUPPORT")
+    assert [values[name] for name in names] == [0.5, 0.25, 0.8, 0.4]
+    none = np.zeros(8)
+    return [
+        array("damage", values["DAMAGE_PROB"].ravel()),
+        array("rewards", np.concatenate([values["GOOD_PIC_REWARD"], none, values["BAD_PIC_REWARD"], none])),
+        integers("cells", [the_only(cells) for cells in values["agent-at"]], "std::uint64_t"),
+    ]
+
+
 def wildlife_preserve() -> list[str]:
     values = values_of("WildlifePreserve_p10_ippc2018", "10")
     assert np.all(values["POACHER-REMEMBERS"]) and not np.any(values["ATTACK-WEIGHT_2"])
@@ -480,6 +497,7 @@ TABLES = (
     mars_rover,
     earth_observation,
     academic_advising_2018,
+    cooperative_recon,
     wildlife_preserve,
     manufacturer,
 )

@@ -380,12 +380,20 @@ struct External {
     Span span;         // of its first use
 };
 
+// A definition fills its target with a copy of a table of the state if all bools of these tables of
+// the action are false (passes/lanes/keep_unchosen.hpp).
+struct Unchosen {
+    std::vector<BufferId> choices;
+    BufferId kept;
+};
 // One CPF, one random initial value, or a table made by a pass: the statements that fill (a part
 // of) one buffer.
 struct Definition {
     BufferId target;
     Block body;
     Span span;  // of the CPF or the value
+    // Then: Lets and a loop, which emitted code skips.
+    std::optional<Unchosen> unchosen = {};
 };
 // A value with what must be computed before it.
 struct Computation {

@@ -122,8 +122,19 @@ class Printer {
   private:
     void definitions(const char* name, const std::vector<Definition>& definitions) {
         writer_.line().line(name).indent();
-        for (const Definition& definition : definitions) block(definition.body);
+        for (const Definition& definition : definitions) {
+            if (definition.unchosen) unchosen(*definition.unchosen);
+            block(definition.body);
+        }
         writer_.dedent();
+    }
+
+    // "unless action.use or action.move"
+    void unchosen(const Unchosen& form) {
+        std::vector<std::string> choices;
+        for (const BufferId choice : form.choices) choices.push_back(element(choice, {}));
+        writer_.line(
+            fmt::format("{} unless {}", element(form.kept, {}), fmt::join(choices, " or ")));
     }
 
     // ------------------------------------------------------------------------- tables

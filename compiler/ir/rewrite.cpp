@@ -148,6 +148,10 @@ void change_buffers(Program& program, const std::function<void(BufferId&)>& chan
     }
     for (Definition* definition : definitions_of(program)) {
         change(definition->target);
+        if (definition->unchosen) {
+            for (BufferId& choice : definition->unchosen->choices) change(choice);
+            change(definition->unchosen->kept);
+        }
         change_tables(definition->body, change);
     }
     change_tables(program.reward.body, change);

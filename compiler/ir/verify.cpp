@@ -1,6 +1,7 @@
 // Over 400 lines: a rule of the IR after the other, for each kind of node and statement.
 #include "ir/verify.hpp"
 
+#include "ir/action_bools.hpp"
 #include "ir/analysis.hpp"
 #include "ir/call.hpp"
 #include "ir/print.hpp"
@@ -470,9 +471,29 @@ class Verifier {
         definitions(program_.policy->act, readable);
     }
 
+    void unchosen(const Definition& definition) {
+        const Buffer& kept = program_[definition.unchosen->kept];
+        const Buffer& target = program_[definition.target];
+        const std::span<const Statement> statements = definition.body;
+        const auto is_let = [](const Statement& statement) {
+            return std::holds_alternative<Let>(statement.form);
+        };
+        require(kept.storage == Storage::State && kept.scalar == target.scalar &&
+                    kept.shape == target.shape &&
+                    std::ranges::all_of(
+                        definition.unchosen->choices,
+                        [&](BufferId choice) { return is_action_bools(program_[choice]); }) &&
+                    !statements.empty() && std::holds_alternative<Loop>(statements.back().form) &&
+                    std::ranges::all_of(statements.first(statements.size() - 1), is_let),
+                "'{}' does not keep '{}'", target.name, kept.name);
+    }
+
     // They fill the records that they compute.
     void definitions(const std::vector<Definition>& definitions, const StorageSet& readable) {
-        for (const Definition& definition : definitions) body(definition.body, readable);
+        for (const Definition& definition : definitions) {
+            if (definition.unchosen) unchosen(definition);
+            body(definition.body, readable);
+        }
         for (std::uint32_t index = 0; index < program_.buffers.size(); ++index) {
             const Buffer& buffer = program_.buffers[index];
             const bool filled =

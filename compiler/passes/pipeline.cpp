@@ -37,6 +37,7 @@
 #include "passes/lanes/choose_evaluation.hpp"
 #include "passes/lanes/evaluate_together.hpp"
 #include "passes/lanes/group_angles.hpp"
+#include "passes/lanes/keep_unchosen.hpp"
 #include "passes/lanes/name_elements.hpp"
 #include "passes/lanes/narrow_objects.hpp"
 #include "passes/lanes/quantify_together.hpp"
@@ -395,6 +396,12 @@ constexpr Pass in_order[] = {
      "loops of draws know which objects an action leaves as they are",
      {"evaluate_together"},
      "it says which loops run over several objects, and not over words"},
+    {"keep_unchosen",
+     Phase::Lanes,
+     keep_unchosen,
+     "definitions know that the state stays as it is where an action chooses nothing",
+     {"evaluate_together"},
+     "loops have their final form, and what is shared stands before them"},
     {"name_elements",
      Phase::Lanes,
      name_elements,

@@ -208,6 +208,7 @@ CpfFunctions cpf_functions(const Unit& unit, const std::string& caller,
     for (std::size_t k = 0; k < definitions.size(); ++k) {
         const ir::Definition& definition = definitions[k];
         FunctionBody body(unit, level + 1);
+        if (definition.unchosen) body.keep_unchosen(definition);
         body.block(definition.body);
         result.uses.add(body.uses());
         const std::vector<Parameter> parameters = only_used(parameters_of(records, body.uses()));

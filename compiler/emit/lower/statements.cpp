@@ -144,6 +144,16 @@ void FunctionBody::block(const ir::Block& block) {
     }
 }
 
+// if (rddl::keep_unchosen(next.seen, state.seen, action.use)) return;
+void FunctionBody::keep_unchosen(const ir::Definition& definition) {
+    tree::Expressions arguments = tree::list(expressions_.target(definition.target, {}),
+                                             expressions_.record(definition.unchosen->kept));
+    for (const ir::BufferId choice : definition.unchosen->choices)
+        arguments.push_back(expressions_.record(choice));
+    statements_.push_back({tree::If{tree::call("rddl::keep_unchosen", std::move(arguments)),
+                                    tree::Statement{tree::word("return")}}});
+}
+
 void FunctionBody::return_value(ir::NodeId id) {
     const Use use{std::string_view("return ").size(), true};
     prepare(use, id);

@@ -21,6 +21,7 @@ class FunctionBody {
     FunctionBody(const Unit& unit, std::size_t level) : expressions_(unit), level_(level) {}
 
     void block(const ir::Block& block);
+    void keep_unchosen(const ir::Definition& definition);
     void return_value(ir::NodeId value);
 
     tree::Block& statements() { return statements_; }

@@ -80,6 +80,15 @@ RDDL_INLINE bool is_any_true(const Table& table) {
     return simd::is_any_stored_byte<static_cast<int>(detail::element_count<Table>)>(
         detail::first_element(table));
 }
+// Copies a table of the state if all bools of these tables of the action are false, in packs for
+// all environments, and says so.
+template <class Table, class... Choices>
+RDDL_INLINE bool keep_unchosen(Table& next, const Table& state, const Choices&... choices) {
+    if ((simd::is_any_stored_byte<static_cast<int>(sizeof(Choices))>(&choices) || ...))
+        return false;
+    next = state;
+    return true;
+}
 // The bits of the caller's actions.
 template <Index first = 0, class Table>
 auto action_bits(const Table& table) {

@@ -1,0 +1,154 @@
+#include "passes/lanes/keep_unchosen.hpp"
+
+#include "ir/action_bools.hpp"
+#include "ir/builder.hpp"
+#include "ir/cost_model.hpp"
+#include "ir/nest.hpp"
+#include "ir/rewrite.hpp"
+
+#include <cmath>
+#include <map>
+#include <optional>
+#include <set>
+#include <utility>
+#include <variant>
+#include <vector>
+
+namespace rddlc::passes {
+namespace {
+
+// Operations of all loops that skip for the same tables of the action: what takes fewer is not
+// worth jumps that may be mispredicted.
+constexpr double worth_a_test = 180;
+
+class Keeping {
+  public:
+    Keeping(ir::Program program, Report& report)
+        : program_(std::move(program)), report_(report), builder_(program_) {}
+
+    ir::Program run() && {
+        for (ir::Definition& definition : program_.step) find(definition);
+        for (const auto& [choices, loops] : found_) {
+            double cost = 0;
+            for (const Found& loop : loops) cost += loop.cost;
+            if (cost < worth_a_test) continue;
+            for (const Found& loop : loops)
+                loop.definition->unchosen =
+                    ir::Unchosen{{choices.begin(), choices.end()}, loop.kept};
+            report_["definitions that keep the state where nothing is chosen"] += loops.size();
+        }
+        return ir::collect_garbage(std::move(program_));
+    }
+
+  private:
+    using Choices = std::set<ir::BufferId>;
+    // A definition that keeps a table of the state if all bools of some choices are false, and the
+    // cost of its loop.
+    struct Found {
+        ir::Definition* definition;
+        ir::BufferId kept;
+        double cost;
+    };
+
+    void find(ir::Definition& definition) {
+        values_.clear();
+        const ir::Loop* const loop = loop_after_lets(definition.body);
+        if (definition.unchosen || !loop || loop->chosen) return;
+        const ir::Nest nest = ir::nest_of(*loop);
+        const ir::Store* const store = store_after_lets(*nest.body);
+        if (!store || store->target != definition.target ||
+            !ir::are_variables_of(program_, store->indices, nest))
+            return;
+        Choices choices = tables_of_action(store->value);
+        const auto kept = kept_without(choices, store->value, nest);
+        if (choices.empty() || !kept || program_[*kept].shape != program_[store->target].shape)
+            return;
+        // Without those that decide nothing where the others choose nothing.
+        for (const ir::BufferId choice : Choices(choices)) {
+            Choices others = choices;
+            others.erase(choice);
+            if (kept_without(others, store->value, nest)) choices = std::move(others);
+        }
+        found_[choices].push_back({&definition, *kept, cost_of(*loop, nest, store->value)});
+    }
+
+    // As one environment runs the loop (ir/cost_model.hpp).
+    double cost_of(const ir::Loop& loop, const ir::Nest& nest, ir::NodeId value) {
+        std::map<ir::NodeId, ir::NodeId> known;
+        const ir::NodeId whole = replace_reads(value, known, [](ir::BufferId) { return false; });
+        const double at_once = loop.as_words          ? ir::bools_at_once
+                               : loop.several_at_once ? ir::objects_at_once
+                                                      : 1;
+        const auto objects = static_cast<double>(ir::combinations(program_, nest.variables));
+        return std::ceil(objects / at_once) * builder_.properties(whole).cost;
+    }
+
+    // Remembers the values of the Lets.
+    const ir::Statement* after_lets(const ir::Block& block) {
+        for (const ir::Statement& statement : block) {
+            const auto* let = std::get_if<ir::Let>(&statement.form);
+            if (!let) return &statement == &block.back() ? &statement : nullptr;
+            values_[let->local] = let->value;
+        }
+        return nullptr;
+    }
+    const ir::Loop* loop_after_lets(const ir::Block& block) {
+        const ir::Statement* const last = after_lets(block);
+        return last ? std::get_if<ir::Loop>(&last->form) : nullptr;
+    }
+    const ir::Store* store_after_lets(const ir::Block& block) {
+        const ir::Statement* const last = after_lets(block);
+        return last ? std::get_if<ir::Store>(&last->form) : nullptr;
+    }
+
+    Choices tables_of_action(ir::NodeId value) {
+        Choices tables;
+        std::map<ir::NodeId, ir::NodeId> known;
+        replace_reads(value, known, [&](ir::BufferId table) {
+            tables.insert(table);
+            return false;
+        });
+        return tables;
+    }
+    // The table of the state that is left of the value with false for all bools of the choices.
+    std::optional<ir::BufferId> kept_without(const Choices& choices, ir::NodeId value,
+                                             const ir::Nest& nest) {
+        std::map<ir::NodeId, ir::NodeId> known;
+        const ir::NodeId rest = replace_reads(
+            value, known, [&](ir::BufferId table) { return choices.contains(table); });
+        const auto* load = std::get_if<ir::Load>(&program_[rest].form);
+        const bool is_kept = load && program_[load->buffer].storage == ir::Storage::State &&
+                             ir::are_variables_of(program_, load->indices, nest);
+        return is_kept ? std::optional(load->buffer) : std::nullopt;
+    }
+    // The value of the Lets, with false where it reads bools of the action from such tables.
+    template <class IsFalse>
+    ir::NodeId replace_reads(ir::NodeId value, std::map<ir::NodeId, ir::NodeId>& known,
+                             const IsFalse& is_false) {
+        return ir::replace_in(
+            builder_, value, known, [&](ir::NodeId id) -> std::optional<ir::NodeId> {
+                const ir::Node node = program_[id];
+                if (const auto* local = std::get_if<ir::Local>(&node.form))
+                    return replace_reads(values_.at(local->local), known, is_false);
+                const auto table = ir::buffer_read_by(node);
+                if (!table || !ir::is_action_bools(program_[*table]) || !is_false(*table))
+                    return std::nullopt;
+                if (node.type == ir::Scalar::Bool) return builder_.constant(false);
+                return builder_.constant(std::int64_t{0});
+            });
+    }
+
+    ir::Program program_;
+    Report& report_;
+    ir::Builder builder_;
+    std::map<ir::LocalId, ir::NodeId> values_;
+    std::map<Choices, std::vector<Found>> found_;
+};
+
+}  // namespace
+
+ir::Program keep_unchosen(ir::Program program, Report& report) {
+    return Keeping(std::move(program), report).run();
+}
+
+}  // namespace rddlc::passes
