@@ -35,8 +35,17 @@ bool is_draw(const Node& node) {
         [](const auto&) { return false; });
 }
 
-// The average length of the rows, where the bounds are neighbours in a table of where rows begin.
+// From an index plus a constant on.
+bool is_behind_index(const Program& program, const Bounds& bounds) {
+    const auto* begin = std::get_if<Apply>(&program[bounds.begin].form);
+    return begin && begin->op == Operator::Add &&
+           std::holds_alternative<Index>(program[begin->operands.front()].form);
+}
+
+// The average length: of the objects behind another one, or of the rows, where the bounds are
+// neighbours in a table of where rows begin.
 double length_of(const Program& program, const Bounds& bounds, double size) {
+    if (is_behind_index(program, bounds)) return (size - 1) / 2;
     const auto* end = std::get_if<Load>(&program[bounds.end].form);
     const std::int64_t rows = end ? program[end->buffer].count() - 1 : 1;
     return size / static_cast<double>(std::max<std::int64_t>(rows, 1));

@@ -15,6 +15,7 @@
 #include "passes/aggregations/keep_bools.hpp"
 #include "passes/aggregations/make_aggregations_sparse.hpp"
 #include "passes/aggregations/merge_draws.hpp"
+#include "passes/aggregations/order_objects.hpp"
 #include "passes/aggregations/search_intervals.hpp"
 #include "passes/aggregations/set_bits.hpp"
 #include "passes/aggregations/skip_zero_terms.hpp"
@@ -183,6 +184,12 @@ constexpr Pass in_order[] = {
      "where few bools are true, aggregations visit those",
      {"index_directly"},
      "an equality is better than a table; and the passes below take aggregations apart"},
+    {"order_objects",
+     Phase::Aggregations,
+     order_objects,
+     "an exists or forall visits objects that may change places in one order",
+     {"index_directly", "visit_true"},
+     "an equality is better than an order; and the passes below take aggregations apart"},
     {"factor_aggregations",
      Phase::Aggregations,
      factor_aggregations,

@@ -3,6 +3,7 @@
 Over 400 lines: a function for each shape.
 """
 
+import itertools
 import math
 
 from rddl_problem import UNSURE, Expr, Fluent
@@ -132,7 +133,7 @@ class Shapes:
     def shape_of_bool(self, depth: int) -> Expr | None:
         return self.pick_weighted([
             (3, self.any_masked), (2, self.count_compared), (1, self.opposite_bounds),
-            (2, self.only_one), (1, self.in_an_interval), (2, self.threshold), (1, self.rounded_threshold),
+            (2, self.only_one), (1, self.in_an_interval), (1, self.different_objects), (2, self.threshold), (1, self.rounded_threshold),
             (2 if self.flavour.draws else 0, self.draw_in_branches),
             (2 if self.flavour.draws else 0, self.drawn_object),
             (1 if self.flavour.draws else 0, self.certain_draw),
@@ -212,6 +213,42 @@ class Shapes:
 
         return self.aggregation_over(
             [type_name], body, lambda binder, inside, _n: Expr("bool", f"(exists_{binder} [%s])", (inside,))
+        )
+
+    def different_objects(self, depth: int) -> Expr | None:
+        """Different objects of a type, most of which may change places."""
+
+        def suits(fluent: Fluent) -> bool:
+            return fluent.role in CHANGING and fluent.is_exact() and (fluent.finite or self.flavour.wild)
+
+        fluents = [(n, f) for n, f in self.visible if len(f.parameters) == 1 and suits(f)]
+        fluents = [(n, f) for n, f in fluents if self.size(f.parameters[0])]
+        if not fluents:
+            return None
+        name, fluent = self.pick(fluents)
+        numbers = ["%s == %s", "%s ~= %s", "%s < %s", "%s - %s > 0", "%s + %s < 1"]
+        forms = {"bool": ["%s ^ %s", "%s | %s", "%s ~= %s"], "int": numbers, "real": numbers}
+        form = self.pick(forms.get(fluent.range, numbers[:2]))
+        is_exists = self.chance(0.5)
+
+        def body() -> Expr:
+            variables = [variable for variable, _ in self.scope[-count:]]
+            values = [f"{name}({variable})" for variable in variables]
+            pairs = list(itertools.combinations(range(count), 2))
+            orders = [self.pick([(i, j), (j, i)]) for i, j in pairs]
+            differ = [f"({variables[i]} ~= {variables[j]})" for i, j in orders if self.chance(0.9)]
+            about = [f"({form % (values[i], values[j])})" for i, j in pairs if j == i + 1 or self.chance(0.5)]
+            if is_exists:
+                return Expr("bool", f"({' ^ '.join(differ + about)})", ())
+            conditions = [condition.replace("~=", "==") for condition in differ] + about
+            return Expr("bool", f"({' | '.join(conditions)})", ())
+
+        count = self.pick([2, 2, 3])
+        quantifier = "exists" if is_exists else "forall"
+        return self.aggregation_over(
+            [fluent.parameters[0]] * count,
+            body,
+            lambda binder, inside, _n: Expr("bool", f"({quantifier}_{binder} [%s])", (inside,)),
         )
 
     def is_inside(self) -> Expr | None:

@@ -354,8 +354,12 @@ Expression Expressions::range(const ir::Reduce& reduce) {
     // "rddl::row(LINK_rows, c)": from one element of a table to the next one.
     if (const ir::Load* row = ir::row_of(unit_.program, *reduce.bounds))
         return tree::call("rddl::row", {record(row->buffer), index(row->indices.front())});
+    const ir::Variable& variable = unit_.program[reduce.variable];
     Expression begin = index(reduce.bounds->begin);
-    return tree::call("rddl::IndexRange", {std::move(begin), index(reduce.bounds->end)});
+    Expression end = ir::constant<std::int64_t>(unit_.program, reduce.bounds->end) == variable.size
+                         ? word(unit_.size_of(variable))
+                         : index(reduce.bounds->end);
+    return tree::call("rddl::IndexRange", {std::move(begin), std::move(end)});
 }
 
 Expression Expressions::parameter(ir::VariableId variable, ir::NodeId body) const {

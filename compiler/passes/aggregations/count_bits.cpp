@@ -319,11 +319,27 @@ class BitCounting {
         constexpr double cost_of_making = 8, cost_of_word = 3, cost_of_entry = 2;
         double entries = 0;
         for (const Row& row : *places_) entries += static_cast<double>(row.size());
+        if (nest.op != Reduction::Sum && waits_for_few(nest, entries)) return false;
         const auto rows = static_cast<double>(places_->size());
         const auto words = static_cast<double>(word_count());
         const double in_bits =
             static_cast<double>(size_) + words * (cost_of_making + rows * cost_of_word);
         return entries * (builder_.properties(nest.condition).cost + cost_of_entry) > in_bits;
+    }
+
+    // Each element is made by the step and tested once, in a short row. Its bits would be made when
+    // all elements have been stored, one by one; a loop over a row may take them from registers.
+    bool waits_for_few(const CountedNest& nest, double entries) const {
+        constexpr std::size_t longest = 4;
+        std::vector<ir::NodeId> loads;
+        collect_loads(nest.condition, loads);
+        return entries <= static_cast<double>(size_) &&
+               std::ranges::all_of(*places_,
+                                   [](const Row& row) { return row.size() <= longest; }) &&
+               std::ranges::all_of(loads, [&](ir::NodeId load) {
+                   const ir::BufferId buffer = std::get<ir::Load>(program_[load].form).buffer;
+                   return program_[buffer].storage == ir::Storage::Scratch;
+               });
     }
 
     // ------------------------------------------------------------------------------- making

@@ -22,10 +22,12 @@ Problem with_bools(const std::string& cpf_of_x) {
                 "p(obj) : { state-fluent, bool, default = false };\n"
                 "q(obj) : { state-fluent, bool, default = false };\n"
                 "many(obj, obj, obj, obj) : { state-fluent, bool, default = false };\n"
-                "s(obj, obj) : { state-fluent, bool, default = false };",
+                "s(obj, obj) : { state-fluent, bool, default = false };\n"
+                "made(obj, obj) : { interm-fluent, bool };",
             .cpfs = "x' = " + cpf_of_x +
                     ";\nt' = t;\np'(?o) = p(?o);\nq'(?o) = q(?o);\n"
-                    "many'(?o, ?u, ?v, ?w) = many(?o, ?u, ?v, ?w);\ns'(?o, ?u) = s(?o, ?u);",
+                    "many'(?o, ?u, ?v, ?w) = many(?o, ?u, ?v, ?w);\ns'(?o, ?u) = s(?o, ?u);\n"
+                    "made(?o, ?u) = s(?o, ?u) ^ p(?u);",
             .non_fluents = "LINK(b1, b2); LINK(b2, b3); LINK(b3, b1); LINK(b3, b2); HEAVY(b2);",
             .init_state = "t = b1;"};
 }
@@ -93,6 +95,16 @@ TEST(CountBits, LeavesTablesSoSmallThatTheirBitsCostMoreThanTheySave) {
 
 // These terms are not the same element of all tables, not known before or not of bools, or counted
 // twice.
+// They are tested once, and their bits would be made when all of them are there.
+TEST(CountBits, LeavesShortRowsThatAStepMakes) {
+    EXPECT_EQ(counted_in_bits("max_{?v : obj} [exists_{?o : obj} [s(?v, ?o)]]"),
+              "max[v in obj](int(bit_and(bits(state.s, 0), s-bits[v]) != 0))");
+    EXPECT_EQ(counted_in_bits("max_{?v : obj} [exists_{?o : obj} [made(?v, ?o)]]"),
+              "max[v in obj](int(exists[o in obj](scratch.made[v, o])))");
+    EXPECT_EQ(counted_in_bits("exists_{?o : obj, ?u : obj} [made(?u, ?o)]"),
+              "int(bits(scratch.made, 0) != 0)");
+}
+
 TEST(CountBits, LeavesOtherAggregations) {
     for (const char* cpf :
          {"sum_{?o : obj, ?u : obj} [p(?o) ^ s(?o, ?u)]",
