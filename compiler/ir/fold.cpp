@@ -75,6 +75,12 @@ Value convert(const Value& value, Scalar type) {
     });
 }
 
+Value as_in_a_step(const Value& value, RealType real) {
+    const auto* number = std::get_if<double>(&value);
+    if (!number || real != RealType::Float) return value;
+    return static_cast<double>(static_cast<float>(*number));
+}
+
 std::optional<Value> fold(Operator op, std::span<const Value> operands) {
     Context context;
     const Value result = match(operands.front(), [&](auto a) {

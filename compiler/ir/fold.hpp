@@ -13,6 +13,9 @@ std::int64_t count_at_most(const Table& sorted, const Value& value);
 
 Value convert(const Value& value, Scalar type);
 
+// A constant as steps compute with it: those of floats round reals.
+Value as_in_a_step(const Value& value, RealType real);
+
 // Nothing if it faults.
 std::optional<Value> fold(Operator op, std::span<const Value> operands);
 

@@ -295,7 +295,7 @@ class Simplifier {
         const auto condition = converted_bool(builder_.program(), a_);
         const auto* constant = std::get_if<Constant>(&node(b_).form);
         if (!condition || !constant) return std::nullopt;
-        const Value limit = as_in_a_step(constant->value);
+        const Value limit = as_in_a_step(constant->value, builder_.program().real);
         // Without nodes, which would be left in the program where nothing is simplified.
         const auto result_for = [&](bool value) {
             return fold(op_, std::vector{convert(value, node(a_).type), limit});
@@ -303,12 +303,6 @@ class Simplifier {
         const auto if_true = result_for(true), if_false = result_for(false);
         if (!if_true || !if_false || *if_true == *if_false) return std::nullopt;
         return *if_true == Value(true) ? *condition : builder_.apply(Operator::Not, {*condition});
-    }
-    // Steps with --real=float round constants.
-    Value as_in_a_step(const Value& value) const {
-        const auto* real = std::get_if<double>(&value);
-        if (!real || builder_.program().real != RealType::Float) return value;
-        return static_cast<double>(static_cast<float>(*real));
     }
 
     std::optional<NodeId> equality() {
