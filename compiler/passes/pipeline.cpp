@@ -21,6 +21,7 @@
 #include "passes/aggregations/skip_zero_terms.hpp"
 #include "passes/aggregations/tabulate_counts.hpp"
 #include "passes/aggregations/tabulate_products.hpp"
+#include "passes/aggregations/tabulate_sums.hpp"
 #include "passes/aggregations/tabulate_thresholds.hpp"
 #include "passes/aggregations/visit_true.hpp"
 #include "passes/arithmetic/compare_magnitudes.hpp"
@@ -221,6 +222,12 @@ constexpr Pass in_order[] = {
      "products of constants that the bools of a row choose look up several bools at once",
      {"reduce_strength", "count_factors"},
      "sums of terms of one bool are selects; a power is one look-up"},
+    {"tabulate_sums",
+     Phase::Aggregations,
+     tabulate_sums,
+     "sums of constants that the bools of a few objects choose are looked up",
+     {"set_bits", "make_aggregations_sparse"},
+     "rows of bools are ints there, and terms that are always 0 are gone"},
     {"tabulate_counts",
      Phase::Aggregations,
      tabulate_counts,

@@ -5,7 +5,7 @@
 #include "ir/nest.hpp"
 #include "ir/reduction_nest.hpp"
 #include "ir/rewrite.hpp"
-#include "passes/analyses/constant_values.hpp"
+#include "passes/aggregations/row_words.hpp"
 
 #include <algorithm>
 #include <cstdint>
@@ -22,7 +22,8 @@ namespace {
 
 // Fewer elements are computed one by one in the time that their bits take.
 constexpr std::int64_t least_bits = 8;
-constexpr std::int64_t bits_of_an_int = 64;
+// The sum over a row in the reward may be looked up by them (tabulate_sums.hpp).
+constexpr std::int64_t least_bits_in_reward = 4;
 // More ints than this set no bits, since the text has a term for each of them.
 constexpr std::int64_t most_ints = 8;
 
@@ -59,7 +60,7 @@ class BitSetting {
         rows.pop_back();
         if (size() < least_bits || size() > bits_of_an_int) return;
         sets_bits_ = false;
-        const auto word = word_of(store.value);
+        const auto word = words().word_of(store.value);
         if (!word || !sets_bits_) return;
         definition.body = ir::looped(
             {{ir::Spread{store.target, {store.indices.begin(), store.indices.end() - 1}, *word}}},
@@ -86,7 +87,7 @@ class BitSetting {
             properties.free_variables.size() != 1 || !ir::is_droppable(properties))
             return std::nullopt;
         element_ = properties.free_variables.front();
-        if (size() < least_bits || size() > bits_of_an_int) return std::nullopt;
+        if (size() < least_bits_in_reward || size() > bits_of_an_int) return std::nullopt;
         const auto word = word_of_exists(id);
         if (!word) return std::nullopt;
         const ir::BufferId row = builder_.tables().scratch(name_ + "-row", ir::Scalar::Bool,
@@ -94,63 +95,6 @@ class BitSetting {
         before.push_back({ir::Spread{row, {}, *word}});
         ++report_["rows of bools whose bits are set"];
         return builder_.load(row, {builder_.index(element_)});
-    }
-
-    // ------------------------------------------------------------------------------- the row
-
-    // A bool of each element as the bits of an int, which are 0 beyond the end of the row.
-    std::optional<ir::NodeId> word_of(ir::NodeId id) {
-        const ir::Properties properties = builder_.properties(id);
-        if (!depends_on_element(id)) return builder_.select(id, all(), none());
-        if (properties.uniform && properties.free_variables.size() == 1) return known_word(id);
-        const ir::Node node = program_[id];
-        if (const auto* load = std::get_if<ir::Load>(&node.form)) return bits_of(*load);
-        if (const auto* select = std::get_if<ir::Select>(&node.form)) return word_of(*select);
-        if (const auto* apply = std::get_if<ir::Apply>(&node.form)) return word_of(*apply);
-        return word_of_exists(id);
-    }
-
-    std::optional<ir::NodeId> known_word(ir::NodeId id) {
-        const ir::Evaluator evaluator(std::as_const(program_));
-        const auto values = constant_values(evaluator, program_, id, {element_});
-        if (!values) return std::nullopt;
-        std::uint64_t word = 0;
-        for (std::size_t i = 0; i < values->size(); ++i)
-            word |= std::uint64_t{std::get<bool>((*values)[i])} << i;
-        return builder_.constant(static_cast<std::int64_t>(word));
-    }
-
-    // The elements of a row that is the same one in all environments, in their order.
-    std::optional<ir::NodeId> bits_of(const ir::Load& load) {
-        const std::vector<ir::NodeId> row(load.indices.begin(), load.indices.end() - 1);
-        const bool is_row =
-            program_[load.buffer].storage != ir::Storage::Constant &&
-            load.indices.back() == builder_.index(element_) &&
-            program_[load.buffer].shape.back() == size() &&
-            std::ranges::all_of(row, [&](ir::NodeId index) {
-                return builder_.properties(index).uniform && !depends_on_element(index);
-            });
-        return is_row ? std::optional(builder_.bits(load.buffer, 0, row)) : std::nullopt;
-    }
-
-    std::optional<ir::NodeId> word_of(const ir::Select& select) {
-        const auto a = word_of(select.then_value), b = word_of(select.else_value);
-        if (!a || !b) return std::nullopt;
-        if (!depends_on_element(select.condition)) return builder_.select(select.condition, *a, *b);
-        const auto where = word_of(select.condition);
-        if (!where) return std::nullopt;
-        if (*a == all()) return either(*where, *b);
-        return either(both(*where, *a), both(inverted(*where), *b));
-    }
-
-    std::optional<ir::NodeId> word_of(const ir::Apply& apply) {
-        if (!is_one_of(apply.op, {Operator::And, Operator::Or, Operator::Not})) return std::nullopt;
-        const auto a = word_of(apply.operands.front());
-        if (!a) return std::nullopt;
-        if (apply.op == Operator::Not) return inverted(*a);
-        const auto b = word_of(apply.operands.back());
-        if (!b) return std::nullopt;
-        return apply.op == Operator::And ? both(*a, *b) : either(*a, *b);
     }
 
     // ------------------------------------------------------------------------- ints of objects
@@ -172,7 +116,7 @@ class BitSetting {
         if (!bit) return std::nullopt;
         sets_bits_ = true;
         const ir::NodeId term =
-            builder_.select(ir::joined(builder_, Operator::And, conditions), *bit, none());
+            builder_.select(ir::joined(builder_, Operator::And, conditions), *bit, words().none());
         return united(term, nest->variables);
     }
 
@@ -201,34 +145,22 @@ class BitSetting {
 
     // The bits of a term for all objects.
     ir::NodeId united(ir::NodeId term, const std::vector<ir::VariableId>& variables) {
-        ir::NodeId bits = none();
+        ir::NodeId bits = words().none();
         for (std::int64_t i = 0; i < ir::combinations(program_, variables); ++i) {
             std::map<ir::NodeId, ir::NodeId> known = ir::combination(builder_, variables, i);
-            bits = either(bits, ir::replace_in(builder_, term, known));
+            bits = words().either(bits, ir::replace_in(builder_, term, known));
         }
         return bits;
     }
 
-    // --------------------------------------------------------------------------------- words
-
+    RowWords words() {
+        return {builder_, element_, [this](ir::NodeId id) {
+                    return word_of_exists(id);
+                }};
+    }
     std::int64_t size() const { return program_[element_].size; }
     bool depends_on_element(ir::NodeId id) const {
         return ir::depends_on_any(builder_.properties(id), {&element_, 1});
-    }
-
-    ir::NodeId none() { return builder_.constant(std::int64_t{0}); }
-    ir::NodeId all() {
-        return builder_.constant(
-            static_cast<std::int64_t>(~std::uint64_t{0} >> (bits_of_an_int - size())));
-    }
-    ir::NodeId inverted(ir::NodeId word) { return builder_.apply(Operator::BitXor, {word, all()}); }
-    ir::NodeId either(ir::NodeId a, ir::NodeId b) {
-        return builder_.apply(Operator::BitOr, {a, b});
-    }
-    ir::NodeId both(ir::NodeId a, ir::NodeId b) {
-        if (a == all()) return b;
-        if (b == all()) return a;
-        return builder_.apply(Operator::BitAnd, {a, b});
     }
 
     ir::Program program_;

@@ -52,6 +52,7 @@ class PlaceReading {
         if (!store || program_[store->target].scalar != ir::Scalar::Bool) return;
         nest_ = ir::nest_of(loop);
         name_ = program_[store->target].name;
+        is_read_in_step_ = program_[store->target].storage == ir::Storage::Scratch;
         if (object_count() > most_objects || ir::reads(program_, store->value, store->target))
             return;
 
@@ -203,7 +204,7 @@ class PlaceReading {
     std::vector<Entry> all_entries_of(const ir::Reduce& reduce) {
         std::vector<Entry> entries;
         const std::int64_t count = program_[reduce.variable].size;
-        if (count > most_whole_terms || !are_many(program_, nest_)) return {};
+        if (count > most_whole_terms || !(is_read_in_step_ || are_many(program_, nest_))) return {};
         for (std::int64_t k = 0; k < count; ++k)
             entries.push_back({builder_.constant(k), builder_.constant(true)});
         return entries;
@@ -273,7 +274,8 @@ class PlaceReading {
 
     // Members of the loop at hand.
     ir::Nest nest_;
-    std::string name_;  // of what it fills
+    std::string name_;              // of what it fills
+    bool is_read_in_step_ = false;  // so registers do not wait for bools that are stored one by one
     Span span_;
     std::int64_t terms_ = 0;  // of its aggregations
     std::map<ir::NodeId, ir::NodeId> by_place_;

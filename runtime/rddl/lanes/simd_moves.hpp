@@ -27,6 +27,21 @@ template <class T>
     return result;
 #endif
 }
+// The same of at most so many values, which may have been stored one by one just now: where a load
+// of all of them waits until memory has them, loads of pairs take them from the stores.
+inline constexpr int most_in_pairs = 4;
+[[gnu::always_inline]] inline Reals load_in_pairs(const double* from, int count) {
+#ifdef RDDL_SIMD_AVX512
+    const __m128d first = _mm_loadh_pd(_mm_load_sd(from), from + 1);
+    __m128d second{};
+    if (count > 2) second = _mm_load_sd(from + 2);
+    if (count > 3) second = _mm_loadh_pd(second, from + 3);
+    const __m256d both = _mm256_insertf128_pd(_mm256_zextpd128_pd256(first), second, 1);
+    return reinterpret<Reals>(_mm512_zextpd256_pd512(both));
+#else
+    return load_some(from, count);
+#endif
+}
 template <class T>
 [[gnu::always_inline]] inline void store_some(T* to, Vector<T> values, int count) {
 #ifdef RDDL_SIMD_AVX512

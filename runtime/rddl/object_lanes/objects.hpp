@@ -201,6 +201,13 @@ template <int n, class T>
 RDDL_INLINE Lanes<T, n> load_some(const T* from, const SomeObjects<n>& objects) {
     if (objects.count == n) return Lanes<T, n>::load(from);
     Lanes<T, n> values;
+    if constexpr (std::is_same_v<T, double> && values.part_count == 1) {
+        const int count = objects.count;
+        if (__builtin_constant_p(count) && count > 1 && count <= simd::most_in_pairs) {
+            values.part[0] = simd::load_in_pairs(from, count);
+            return values;
+        }
+    }
     for (int p = 0, first = 0; p < values.part_count; ++p, first += values.part_width)
         values.part[p] = simd::load_some(from + first, objects.count - first);
     return values;

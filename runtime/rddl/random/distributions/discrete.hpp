@@ -17,6 +17,7 @@
 #include <cstdint>
 #include <limits>
 #include <type_traits>
+#include <utility>
 
 namespace rddl::sample {
 
@@ -200,12 +201,14 @@ struct Intervals {
         return static_cast<std::int64_t>(
             std::count_if(row.begin(), row.end(), [](Threshold each) { return each <= 0; }));
     });
+    // The open threshold i of each row. Each i has a table of its own, since registers may be able
+    // to hold that.
+    template <std::size_t i>
     static constexpr auto open = mapped_rows(thresholds, [](const auto& row) {
-        std::array<Threshold, most_open> few{};
-        few.fill(1);
-        std::copy_if(row.begin(), row.end(), few.begin(),
-                     [](Threshold each) { return !is_decided(each); });
-        return few;
+        std::size_t before = 0;
+        for (const Threshold each : row)
+            if (!is_decided(each) && before++ == i) return each;
+        return Threshold{1};
     });
 };
 
@@ -224,11 +227,13 @@ RDDL_INLINE typename L::Int interval(Context<L>& context, SomePlace place, const
             return detail::GuideTable<thresholds>::template count<Int>(u);
     if constexpr (sizeof...(Row) > 0 && Intervals::has_few_open) {
         Int count{at(Intervals::reached, in_range(context, row)...)};
-        for (std::size_t i = 0; i < Intervals::most_open; ++i) {
-            const auto threshold =
-                at(Intervals::open, in_range(context, row)..., static_cast<Index>(i));
-            count = wrap_add(count, to_int(threshold <= u));
+        [&]<std::size_t... i>(std::index_sequence<i...>) RDDL_INLINE_LAMBDA {
+            const auto add = [&](const auto& threshold) RDDL_INLINE_LAMBDA {
+                count = wrap_add(count, to_int(threshold <= u));
+            };
+            (add(at(Intervals::template open<i>, in_range(context, row)...)), ...);
         }
+        (std::make_index_sequence<Intervals::most_open>());
         return count;
     }
     const auto is_at_most = [&](const auto& i) RDDL_INLINE_LAMBDA {

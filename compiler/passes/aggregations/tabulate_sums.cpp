@@ -1,0 +1,194 @@
+#include "passes/aggregations/tabulate_sums.hpp"
+
+#include "ir/analysis.hpp"
+#include "ir/evaluator.hpp"
+#include "ir/fill_table.hpp"
+#include "ir/rewrite.hpp"
+#include "passes/aggregations/row_words.hpp"
+#include "passes/analyses/constant_values.hpp"
+
+#include <algorithm>
+#include <cstdint>
+#include <iterator>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace rddlc::passes {
+namespace {
+
+// Fewer terms are added in the time that their bits take.
+constexpr std::int64_t least_terms = 4;
+// The table has an entry for each set of the first ones, and another table two for each other one.
+constexpr std::int64_t most_in_table = 8;
+constexpr std::int64_t most_terms = 16;
+
+using Values = std::vector<ir::Value>;
+
+class SumTabulation {
+  public:
+    SumTabulation(ir::Program program, Report& report)
+        : program_(std::move(program)), report_(report), builder_(program_) {}
+
+    ir::Program run() && {
+        program_.reward.value = with_tables(program_.reward.value);
+        return ir::collect_garbage(std::move(program_));
+    }
+
+  private:
+    // A value outside of loops. What is in a branch is not always evaluated.
+    ir::NodeId with_tables(ir::NodeId value) {
+        std::map<ir::NodeId, ir::NodeId> known;
+        return ir::replace_in(builder_, value, known,
+                              [&](ir::NodeId id) -> std::optional<ir::NodeId> {
+                                  if (std::holds_alternative<ir::Select>(program_[id].form))
+                                      return id;
+                                  if (!std::holds_alternative<ir::Reduce>(program_[id].form))
+                                      return std::nullopt;
+                                  return looked_up(id).value_or(id);
+                              });
+    }
+
+    std::optional<ir::NodeId> looked_up(ir::NodeId id) {
+        const ir::Reduce sum = std::get<ir::Reduce>(program_[id].form);
+        const ir::Properties properties = builder_.properties(id);
+        const std::int64_t terms = program_[sum.variable].size;
+        const bool may_be = sum.op == Reduction::Sum && !sum.bounds &&
+                            program_[id].type == ir::Scalar::Real && terms >= least_terms &&
+                            terms <= most_terms && properties.free_variables.empty() &&
+                            ir::is_droppable(properties);
+        if (!may_be) return std::nullopt;
+        const auto condition = only_bool(sum.body);
+        if (!condition ||
+            !ir::depends_on_none_but(builder_.properties(*condition), {&sum.variable, 1}) ||
+            !reads_spread_row(*condition))
+            return std::nullopt;
+        const auto if_true = values_where(sum, *condition, true),
+                   if_false = values_where(sum, *condition, false);
+        if (!if_true || !if_false) return std::nullopt;
+        const ir::NodeId word = word_of(*condition, sum.variable);
+        const ir::NodeId sum_of_all = sum_by(word, *if_true, *if_false);
+        ++report_["sums of constants that bools choose looked up"];
+        return sum_of_all;
+    }
+
+    // ------------------------------------------------------------------------------- terms
+
+    // The bool that alone decides a term, beside constants.
+    std::optional<ir::NodeId> only_bool(ir::NodeId term) const {
+        if (builder_.properties(term).uniform) return std::nullopt;
+        if (program_[term].type == ir::Scalar::Bool) return term;
+        std::optional<ir::NodeId> only;
+        for (const ir::NodeId operand : ir::operands_of(program_[term])) {
+            if (builder_.properties(operand).uniform || operand == only) continue;
+            if (only) return std::nullopt;
+            only = operand;
+        }
+        return only ? only_bool(*only) : std::nullopt;
+    }
+
+    // The term of each object where the bool has this value.
+    std::optional<Values> values_where(const ir::Reduce& sum, ir::NodeId condition, bool value) {
+        std::map<ir::NodeId, ir::NodeId> known{{condition, builder_.constant(value)}};
+        const ir::NodeId term = ir::replace_in(builder_, sum.body, known);
+        if (!builder_.properties(term).uniform) return std::nullopt;
+        const ir::Evaluator evaluator(std::as_const(program_));
+        return constant_values(evaluator, program_, term, {sum.variable});
+    }
+
+    // ------------------------------------------------------------------------------ tables
+
+    ir::NodeId sum_by(ir::NodeId word, const Values& if_true, const Values& if_false) {
+        const auto terms = std::ssize(if_true), first = std::min(terms, most_in_table);
+        ir::NodeId sum = look_up("reward-sums", bits_of(word, 0, first, terms),
+                                 sums_of_first(first, if_true, if_false));
+        for (std::int64_t i = first; i < terms; ++i) {
+            const Values either{if_false[i], if_true[i]};
+            sum = builder_.apply(
+                Operator::Add, {sum, look_up("reward-terms", bits_of(word, i, 1, terms), either)});
+        }
+        return sum;
+    }
+    ir::NodeId look_up(const std::string& name, ir::NodeId place, const Values& values) {
+        const ir::BufferId table =
+            builder_.tables().list(name, ir::Scalar::Real, values, program_.reward.span);
+        return builder_.load(table, {place});
+    }
+    // `count` bits of a word of `all`.
+    ir::NodeId bits_of(ir::NodeId word, std::int64_t first, std::int64_t count, std::int64_t all) {
+        if (first > 0)
+            word = builder_.apply(Operator::ShiftRight, {word, builder_.constant(first)});
+        if (first + count == all) return word;
+        const std::int64_t mask = (std::int64_t{1} << count) - 1;
+        return builder_.apply(Operator::BitAnd, {word, builder_.constant(mask)});
+    }
+
+    // The sums of the first terms by the bits of their bools, added in their order.
+    Values sums_of_first(std::int64_t count, const Values& if_true, const Values& if_false) {
+        std::vector<ir::NodeId> sums{builder_.constant(0.0)};
+        for (std::int64_t i = 0; i < count; ++i) {
+            const auto added = [&](const ir::Value& value) {
+                std::vector<ir::NodeId> all;
+                for (const ir::NodeId sum : sums)
+                    all.push_back(builder_.apply(Operator::Add, {sum, builder_.constant(value)}));
+                return all;
+            };
+            const std::vector<ir::NodeId> with = added(if_true[i]);
+            sums = added(if_false[i]);
+            sums.insert(sums.end(), with.begin(), with.end());
+        }
+        Values values;
+        std::ranges::transform(sums, std::back_inserter(values), [&](ir::NodeId sum) {
+            return std::get<ir::Constant>(program_[sum].form).value;
+        });
+        return values;
+    }
+
+    // -------------------------------------------------------------------------------- bools
+
+    ir::NodeId word_of(ir::NodeId condition, ir::VariableId object) {
+        RowWords words(builder_, object, [&](ir::NodeId id) -> std::optional<ir::NodeId> {
+            const ir::BufferId table = builder_.tables().scratch("reward-bools", ir::Scalar::Bool,
+                                                                 builder_.properties(id).range,
+                                                                 {object}, program_.reward.span);
+            ir::fill_table(builder_, program_.reward.body, table, {object}, id);
+            return builder_.bits(table, 0);
+        });
+        std::map<ir::NodeId, ir::NodeId> known;
+        return ir::replace_in(builder_, *words.word_of(condition), known,
+                              [&](ir::NodeId id) -> std::optional<ir::NodeId> {
+                                  const auto* bits = std::get_if<ir::Bits>(&program_[id].form);
+                                  return bits ? spread_into(bits->buffer) : std::nullopt;
+                              });
+    }
+
+    // The int that is spread into a row: one of registers needs no bits of bools, which would take
+    // longer than adding the terms.
+    std::optional<ir::NodeId> spread_into(ir::BufferId row) const {
+        for (const ir::Statement& statement : program_.reward.body) {
+            const auto* spread = std::get_if<ir::Spread>(&statement.form);
+            if (spread && spread->target == row) return spread->bits;
+        }
+        return std::nullopt;
+    }
+    bool reads_spread_row(ir::NodeId id) const {
+        return ir::any_node_of(program_, id, [&](ir::NodeId each) {
+            const auto buffer = ir::buffer_read_by(program_[each]);
+            return buffer && spread_into(*buffer);
+        });
+    }
+
+    ir::Program program_;
+    Report& report_;
+    ir::Builder builder_;
+};
+
+}  // namespace
+
+ir::Program tabulate_sums(ir::Program program, Report& report) {
+    return SumTabulation(std::move(program), report).run();
+}
+
+}  // namespace rddlc::passes
