@@ -42,8 +42,7 @@ std::optional<ir::NodeId> RowWords::bits_of(const ir::Load& load) {
     const ir::Buffer& table = builder_.program()[load.buffer];
     const bool is_row =
         table.storage != ir::Storage::Constant && load.indices.back() == builder_.index(object_) &&
-        table.shape.back() == size() &&
-        std::ranges::all_of(row, [&](ir::NodeId index) {
+        table.shape.back() == size() && std::ranges::all_of(row, [&](ir::NodeId index) {
             return builder_.properties(index).uniform && !depends_on_object(index);
         });
     return is_row ? std::optional(builder_.bits(load.buffer, 0, row)) : std::nullopt;
