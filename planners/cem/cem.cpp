@@ -1,6 +1,7 @@
 #include "planners/cem/cem.hpp"
 
 #include <algorithm>
+#include <numeric>
 
 namespace rddlc::planners {
 
@@ -29,6 +30,10 @@ std::size_t population_of(const PlannerContext& context, const CemOptions& optio
         population = std::min(population, std::max(least, *steps / (least_populations * row)));
         population = std::min(population, std::max<std::int64_t>(1, *steps / lanes));
     }
+    // An engine takes as long for a block of environments as for a part of it.
+    constexpr std::int64_t block = 16;
+    const std::int64_t plans = block / std::gcd(block, lanes);  // of whole blocks
+    if (population >= 2 * plans) population -= population % plans;
     return static_cast<std::size_t>(population);
 }
 
@@ -61,7 +66,7 @@ Cem::Cem(const PlannerContext& context, const CemOptions& options)
       fresh_(space_, Spread{options.spread}),
       plans_(static_cast<std::size_t>(futures_.count()) / scenarios_, space_.real_count(),
              space_.index_count()),
-      noise_(plans_.plans(), space_.real_count(), space_.index_count(), correlations_of(options_)),
+      noise_(plans_.plans(), space_, correlations_of(options_)),
       plan_actions_(space_, records_, plans_.plans()) {
     lanes_ = static_cast<std::size_t>(futures_.count());
     population_ = plans_.plans();
@@ -84,7 +89,7 @@ Cem::Cem(const PlannerContext& context, const CemOptions& options)
     values_.resize(population_);
     errors_.resize(population_);
     order_.resize(population_);
-    others_.resize(population_);
+    is_ordered_.resize(population_);
     firsts_.resize(population_ * records_.record_size());
     streams_.resize(lanes_);
     row_.resize(static_cast<std::size_t>(space_.column_count));
@@ -270,6 +275,7 @@ void Cem::decide(const DecisionPoint& point, std::byte* action, Explanation* exp
     } while (has_found ||
              meter.has_room(played * depth + comparison(depth), compares ? seconds : 0));
 
+    add_others();
     Choice chosen{order_.front(), values_[order_.front()], errors_[order_.front()],
                   static_cast<std::int64_t>(scenarios_)};
     if (compares && depth > 0 && !meter.is_late() && meter.steps_left() >= comparison(depth)) {

@@ -75,6 +75,7 @@ class Cem : public Planner {
     void rank();
     void sort_best();
     void sort_first(std::size_t count);
+    void add_others();
     std::size_t elites() const;
     bool is_above_median(double value) const;
     void rank_kept(const Memory& memory);
@@ -128,7 +129,9 @@ class Cem : public Planner {
     std::vector<double> errors_;
     double noop_value_ = 0;
     std::vector<std::size_t> order_;  // the best first, then the others
-    std::vector<std::size_t> others_;
+    std::size_t ordered_ = 0;         // so many are the best
+    double limit_ = 0;                // below which the others are
+    std::vector<std::uint8_t> is_ordered_;
     std::vector<std::byte> firsts_;  // action records of each plan's first step
     // The lanes.
     std::vector<std::uint64_t> streams_;

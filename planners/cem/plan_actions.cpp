@@ -21,10 +21,10 @@ RealScales scales_of(const solvers::ActionSpace& space, const solvers::ActionRec
     return RealScales(scales);
 }
 
-// The inverse of the loops' bent().
+// The number whose value is so much from the bound: the inverse of the loops' parabola.
 double straightened(double value) {
     constexpr double from = half_bend;
-    return value < from ? 2 * std::sqrt(from * std::max(value, 0.0)) - from : value;
+    return value < from ? 2 * std::sqrt(from * std::max(value, 0.0)) : value + from;
 }
 
 }  // namespace
@@ -39,6 +39,10 @@ void read_plan_action(const solvers::ActionSpace& space, const float* row, float
             numbers[r] = static_cast<float>(straightened((value - head.lower) / head.scale));
         else if (head.range == RealHead::Range::BelowUpper)
             numbers[r] = static_cast<float>(straightened((head.upper - value) / head.scale));
+        else
+            numbers[r] += middle_number(head.range);
+        const auto [least, most] = number_limits(head);
+        numbers[r] = std::clamp(numbers[r], least, most);
     }
 }
 

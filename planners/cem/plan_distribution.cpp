@@ -16,8 +16,6 @@ namespace {
 constexpr float least_share = 0.02f;
 // And so much that of a step before.
 constexpr float shifted_share = 0.1f;
-// The greatest number of a real without bounds, in the learner's units.
-constexpr float most_number = 1e9f;
 // The chance that a first sub-action stops.
 constexpr float first_stop = 0.2f;
 
@@ -33,16 +31,16 @@ Distribution::Distribution(const ActionSpace& space, Spread spread)
     : loops_(plan_loops()),
       space_(space),
       spread_(spread),
-      first_means_(reals(), 0.0f),
       first_probabilities_(logits()),
       fitted_(logits()),
       defaults_(indices()),
       usual_(indices()) {
     for (std::size_t k = 0; k < repetitions * reals(); ++k) {
-        const RealHead::Range range = space.reals[k % reals()].range;
-        most_.push_back(range == RealHead::Range::Bounded ? 1 : most_number);
-        least_.push_back(is_bent(range) ? -half_bend : -most_.back());
+        const auto [least, most] = number_limits(space.reals[k % reals()]);
+        least_.push_back(least);
+        most_.push_back(most);
     }
+    for (const RealHead& head : space.reals) first_means_.push_back(middle_number(head.range));
     repeated_means_.resize(most_.size());
     repeated_deviations_.resize(most_.size());
     sums_.resize(reals());
@@ -126,9 +124,9 @@ void Distribution::draw(RandomStream& stream, PlanNoise& noise, Population& popu
     const std::size_t plans = population.plans();
     noise.restart(stream);
     for (std::size_t t = 0; t < population.steps(); ++t) {
-        noise.next_step(stream);
-        if (reals() > 0) draw_reals(t, noise, population);
+        if (reals() > 0) draw_reals(t, stream, noise, population.numbers(t));
         if (indices() == 0) continue;
+        noise.next_ranks(stream);
         write_usual(t, usual_.data());
         for (std::size_t h = 0; h < space_.categories.size(); ++h)
             draw_index(t, space_.categories[h].first_logit, space_.categories[h].count, usual_[h],
@@ -141,13 +139,14 @@ void Distribution::draw(RandomStream& stream, PlanNoise& noise, Population& popu
     }
 }
 
-void Distribution::draw_reals(std::size_t step, const PlanNoise& noise, Population& population) {
+void Distribution::draw_reals(std::size_t step, RandomStream& stream, PlanNoise& noise,
+                              float* numbers) {
     repeat(means_.data() + step * reals(), reals(), repeated_means_.data());
     repeat(deviations_.data() + step * reals(), reals(), repeated_deviations_.data());
-    loops_.scale_numbers({most_.size(), repeated_means_.data(), repeated_deviations_.data(),
-                          least_.data(), most_.data()},
-                         noise.widths(), noise.numbers(), population.plans() * reals(),
-                         population.numbers(step));
+    noise.next_numbers(stream,
+                       {most_.size(), repeated_means_.data(), repeated_deviations_.data(),
+                        least_.data(), most_.data()},
+                       numbers);
 }
 
 void Distribution::draw_index(std::size_t step, int first_logit, int count, std::int32_t usual,

@@ -49,7 +49,7 @@ class Distribution {
   private:
     void begin_steps(std::int64_t from);
     void widen();
-    void draw_reals(std::size_t step, const PlanNoise& noise, Population& population);
+    void draw_reals(std::size_t step, RandomStream& stream, PlanNoise& noise, float* numbers);
     void draw_index(std::size_t step, int first_logit, int count, std::int32_t usual,
                     const PlanNoise& noise, const std::int32_t* ranks, std::size_t plans,
                     std::int32_t* chosen);

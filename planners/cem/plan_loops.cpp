@@ -22,8 +22,9 @@ bool is_float(double x) {
 // by the float that is next to it within.
 bool is_short(const RealScale& real) {
     using Range = solvers::RealHead::Range;
-    constexpr double greatest = std::numeric_limits<float>::max();
-    if (!is_float(real.exact_default) || real.least < -greatest || real.most > greatest)
+    constexpr double greatest = 1e30;  // whose products are floats as well
+    if (!is_float(real.exact_default) || real.least < -greatest || real.most > greatest ||
+        real.scale > greatest)
         return false;
     if (real.range != Range::Bounded) return true;
     const auto half_width = static_cast<float>(0.5 * (real.upper - real.lower));
@@ -48,15 +49,38 @@ void repeat_all(Aligned<Value>& row) {
 
 }  // namespace
 
+NumberLimits number_limits(const solvers::RealHead& head) {
+    using Range = solvers::RealHead::Range;
+    static constexpr double most_number = 1e9;
+    const auto within = [](double number) {
+        return static_cast<float>(std::clamp(number, -most_number, most_number));
+    };
+    switch (head.range) {
+        case Range::Squashed:
+        case Range::Bounded:
+            break;
+        case Range::AboveLower:
+            return {0, within((head.most() - head.lower) / head.scale)};
+        case Range::BelowUpper:
+            return {0, within((head.upper - head.least()) / head.scale)};
+        case Range::Free:
+            return {within((head.least() - head.centre) / head.scale),
+                    within((head.most() - head.centre) / head.scale)};
+    }
+    return {0, 2};
+}
+
 RealScales::RealScales(std::span<const RealScale> reals) : period(repetitions * reals.size()) {
     for (const RealScale& real : reals) add(real);
-    for (auto* const row :
-         {&least_number, &shift, &twice_bend, &rounds, &short_default, &short_values.base,
-          &short_values.scale, &short_values.least, &short_values.most})
-        repeat_all(*row);
-    for (auto* const row : {&lower, &upper, &exact_default, &long_values.base, &long_values.scale,
-                            &long_values.least, &long_values.most})
-        repeat_all(*row);
+    const auto repeat_values = [](auto& values) {
+        for (auto* const row : {&values.base, &values.scale, &values.bend, &values.slope,
+                                &values.bend_end, &values.least, &values.most})
+            repeat_all(*row);
+    };
+    repeat_values(short_values);
+    repeat_values(long_values);
+    for (auto* const row : {&rounds, &short_default}) repeat_all(*row);
+    for (auto* const row : {&lower, &upper, &exact_default}) repeat_all(*row);
 }
 
 void RealScales::add(const RealScale& real) {
@@ -64,12 +88,8 @@ void RealScales::add(const RealScale& real) {
     constexpr float infinity = std::numeric_limits<float>::infinity();
     constexpr double greatest = std::numeric_limits<float>::max();
     const bool is_bounded = real.range == Range::Bounded;
-    const bool bends = is_bent(real.range);
     is_short = is_short && planners::is_short(real);
     any_rounds = any_rounds || real.rounds;
-    least_number.push_back(bends ? half_bend : -infinity);
-    shift.push_back(bends ? -half_bend : is_bounded ? 1.0f : 0.0f);
-    twice_bend.push_back(bends ? 2 * half_bend : 0.0f);
     rounds.push_back(real.rounds ? 1.0f : 0.0f);
     const double base = real.range == Range::Free         ? real.centre
                         : real.range == Range::BelowUpper ? real.upper
@@ -77,12 +97,22 @@ void RealScales::add(const RealScale& real) {
     const double scale = is_bounded                        ? 0.5 * real.upper - 0.5 * real.lower
                          : real.range == Range::BelowUpper ? -real.scale
                                                            : real.scale;
+    const double bent_scale = is_bent(real.range) ? scale : 0;
+    const auto add_parabola = [&]<class Number>(Values<Number>& values) {
+        values.scale.push_back(static_cast<Number>(scale));
+        values.bend.push_back(static_cast<Number>(bent_scale / (4 * half_bend)));
+        values.slope.push_back(static_cast<Number>(bent_scale));
+        values.bend_end.push_back(is_bent(real.range) ? 2 * half_bend : Number{0});
+    };
+    add_parabola(short_values);
+    add_parabola(long_values);
     long_values.base.push_back(base);
-    long_values.scale.push_back(scale);
     long_values.least.push_back(std::clamp(real.least, -greatest, greatest));
     long_values.most.push_back(std::clamp(real.most, -greatest, greatest));
-    short_values.base.push_back(static_cast<float>(base));
-    short_values.scale.push_back(static_cast<float>(scale));
+    short_values.base.push_back(
+        is_bent(real.range)
+            ? float_within(base, real.range == Range::AboveLower ? infinity : -infinity)
+            : static_cast<float>(base));
     short_values.least.push_back(float_within(long_values.least.back(), infinity));
     short_values.most.push_back(float_within(long_values.most.back(), -infinity));
     lower.push_back(real.lower);

@@ -13,10 +13,10 @@
 
 namespace rddlc::planners {
 
-// Noise of a step: see PlanNoise. Number k keeps old[k] of itself and takes fresh[k] of drawn[k];
-// plan p keeps its rank with the probability keep[p] / 256.
+// Noise of a step: see PlanNoise. Number k keeps old[k] of itself, takes fresh[k] of drawn[k], and
+// is widths[k] as wide; plan p keeps its rank with the probability keep[p] / 256.
 struct NumberNoise {
-    const float *old, *fresh, *drawn;
+    const float *old, *fresh, *drawn, *widths;
 };
 struct RankNoise {
     std::uint32_t key;
@@ -41,26 +41,37 @@ inline constexpr std::size_t slack = 8;
 }
 inline constexpr std::int32_t rank_count = 1 << 24;
 
-// Where plans' numbers lie between -half_bend and half_bend, values with one bound are bent: they
-// go on from the bound as a parabola. 4 log 2: so that 0 has the value that learners give it.
+// A real of a plan is a number in the learner's units that is 0 at a bound: reals between two
+// bounds have numbers from 0 to 2, those with one bound numbers from 0 on, and those without have
+// any. Where a number lies between 0 and 2 * half_bend, values with one bound are bent: they go on
+// from the bound as a parabola. 4 log 2: so that the middle has the value that learners give to 0.
 inline constexpr float half_bend = 2.7725887f;
 inline bool is_bent(solvers::RealHead::Range range) {
     using Range = solvers::RealHead::Range;
     return range == Range::AboveLower || range == Range::BelowUpper;
 }
+// The learner's 0.
+inline float middle_number(solvers::RealHead::Range range) {
+    return is_bent(range) ? half_bend : range == solvers::RealHead::Range::Bounded ? 1.0f : 0.0f;
+}
+// Beyond these a number would change nothing, and drift away.
+struct NumberLimits {
+    float least, most;
+};
+NumberLimits number_limits(const solvers::RealHead& head);
 
 // Reals of plans lie one plan after the other. What belongs to a real of an action is repeated for
 // so many plans, so that loops over vectors of any length need not know where a plan begins.
-inline constexpr std::size_t repetitions = 32;  // a power of two
+inline constexpr std::size_t repetitions = 16;  // a power of two
 // Repeats a row of `reals` values.
 template <class Value>
 void repeat(const Value* row, std::size_t reals, Value* to) {
-    std::copy_n(row, reals, to);
-    for (std::size_t k = 1; k < repetitions; k *= 2) std::copy_n(to, k * reals, to + k * reals);
+    for (std::size_t k = 0; k < repetitions; ++k)
+        for (std::size_t r = 0; r < reals; ++r) *to++ = row[r];
 }
 
 // The distribution of the reals of a step, and the limits of their numbers; each is `period`
-// values. Beyond its bounds a number would change nothing, and drift away.
+// values.
 struct NumberScales {
     std::size_t period;
     const float *means, *deviations, *least, *most;
@@ -76,23 +87,24 @@ struct RealScale {
     double exact_default;
 };
 
-// The reals of an action. A number u has the value base + scale * (max(u, least_number) + shift +
-// b), where b is what the parabola adds, and is limited to `least` and `most`.
+// The reals of an action. A number y has the value base + scale * y + t * (t * bend - slope), where
+// t is y, but at most bend_end: the parabola, and what is missing to it further on. All are 0 for
+// reals without a parabola. So numbers within their limits have values within their bounds.
 class RealScales {
   public:
     explicit RealScales(std::span<const RealScale> reals);
 
     template <class Number>
     struct Values {
-        Aligned<Number> base, scale, least, most;
+        Aligned<Number> base, scale, bend, slope, bend_end, least, most;
     };
     std::size_t period;
     // Whether arithmetic of floats reaches all bounds and defaults that have to be reached.
     bool is_short = true;
     bool any_rounds = false;
-    Aligned<float> least_number, shift, twice_bend, rounds;  // rounds: 1 or 0
+    Aligned<float> rounds;  // 1 or 0
     Values<float> short_values;
-    // Else values are computed as doubles and rounded to floats.
+    // Else values are computed as doubles, limited to `least` and `most`, and rounded to floats.
     Values<double> long_values;
     Aligned<double> lower, upper, exact_default;
     Aligned<float> short_default;
@@ -102,13 +114,12 @@ class RealScales {
 };
 
 struct PlanLoops {
-    void (*next_numbers)(const NumberNoise& noise, std::size_t count, float* numbers);
+    // The noise goes on by a step, and so many numbers are drawn by it, of which the first is the
+    // scales' first-th one: number = mean + deviation * noise, within its limits. Its mirror image
+    // has the noise's negative.
+    void (*draw_numbers)(const NumberNoise& noise, const NumberScales& scales, std::size_t first,
+                         std::size_t count, float* values, float* numbers, float* mirrored);
     void (*next_ranks)(const RankNoise& noise, std::size_t plans, std::int32_t* ranks);
-    // number = mean + deviation * noise, within its limits; where 1 is not the most, with noise
-    // that is so many widths as wide. The first one is that of a plan's first real, as in
-    // real_values().
-    void (*scale_numbers)(const NumberScales& scales, const float* widths, const float* noise,
-                          std::size_t count, float* numbers);
     // reached[p] becomes the number of thresholds that ranks[p] reaches. They are in ascending
     // order and 2^n - 1.
     void (*count_reached)(const std::int32_t* thresholds, std::size_t count,
@@ -120,7 +131,8 @@ struct PlanLoops {
     void (*keep_habits)(const std::int32_t* habits, const std::int32_t* ranks, std::int32_t usual,
                         std::size_t plans, std::int32_t* chosen);
     // Values as write_action and ActionRecords have them, but bent in place of softplus: of a
-    // float's precision, and what is the default there is the default itself.
+    // float's precision, and what is the default there is the default itself. The first one is that
+    // of a plan's first real. Numbers lie within their limits.
     void (*real_values)(const RealScales& reals, const float* numbers, std::size_t count,
                         double* values);
     // For each of `reals` columns of rows: the sum of weights * x and that of weights * x * x,

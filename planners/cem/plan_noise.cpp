@@ -27,7 +27,7 @@ float power_of_two(float x) {
 // and others, Evolution strategies as a scalable alternative to reinforcement learning, 2017).
 struct NoiseTables {
     static constexpr std::size_t size = std::size_t{1} << 15;
-    // So many numbers in turn are read from one place.
+    // At most so many numbers in turn are read from one place.
     static constexpr std::size_t run = 1024;
     static constexpr std::size_t line = 16;  // places begin at cache lines
 
@@ -49,11 +49,14 @@ const NoiseTables& noise_tables() {
 }
 
 // Calls body(first, count, place) for runs of a row: a run reads `count` numbers from `place` on.
+// It is of whole periods, unless one is longer.
 template <class Body>
-void for_each_run(RandomStream& stream, std::size_t row, Body body) {
+void for_each_run(RandomStream& stream, std::size_t row, std::size_t period, Body body) {
     constexpr std::size_t places = (NoiseTables::size - NoiseTables::run) / NoiseTables::line;
-    for (std::size_t first = 0; first < row; first += NoiseTables::run)
-        body(first, std::min(NoiseTables::run, row - first),
+    constexpr std::size_t most = NoiseTables::run;
+    const std::size_t run = period < most ? most / period * period : most;
+    for (std::size_t first = 0; first < row; first += run)
+        body(first, std::min(run, row - first),
              NoiseTables::line * stream.below(static_cast<std::uint32_t>(places + 1)));
 }
 
@@ -63,52 +66,60 @@ std::uint32_t key_of(RandomStream& stream) {
 
 }  // namespace
 
-PlanNoise::PlanNoise(std::size_t plans, int reals, int ranks, std::span<const double> correlations)
+PlanNoise::PlanNoise(std::size_t plans, const solvers::ActionSpace& space,
+                     std::span<const double> correlations)
     : loops_(plan_loops()),
       plans_(plans),
-      nothing_(static_cast<std::size_t>(reals) * plans, 0.0f),
+      pairs_((plans + 1) / 2),
+      nothing_(space.reals.size() * pairs_, 0.0f),
       all_(nothing_.size(), 1.0f),
       no_chance_(plans, 0),
       habits_(plans, 0),
       stretches_(plans, 1.0f),
-      numbers_(nothing_.size()),
-      ranks_(static_cast<std::size_t>(ranks) * plans) {
-    for (std::size_t p = 0; p < plans; ++p) {
+      values_(nothing_.size()),
+      ranks_(static_cast<std::size_t>(space.index_count()) * plans) {
+    for (std::size_t p = 0; p < pairs_; ++p) {
         const double correlation = correlations[p % correlations.size()];
-        old_.insert(old_.end(), static_cast<std::size_t>(reals), static_cast<float>(correlation));
-        fresh_.insert(fresh_.end(), static_cast<std::size_t>(reals),
+        old_.insert(old_.end(), space.reals.size(), static_cast<float>(correlation));
+        fresh_.insert(fresh_.end(), space.reals.size(),
                       static_cast<float>(std::sqrt(1 - correlation * correlation)));
+    }
+    for (std::size_t p = 0; p < plans; ++p) {
         const double of_ranks = correlations[p / (2 * correlations.size()) % correlations.size()];
         keep_.push_back(static_cast<std::uint32_t>(std::lround(256 * of_ranks)));
     }
-    if (reals > 0) draw_widths();
+    if (!space.reals.empty()) draw_widths(space);
 }
 
 // Rows are in ascending order from the eleventh plan on. A search puts plans that are not drawn in
 // the places of the first ones, which would else be the narrow ones.
-void PlanNoise::draw_widths() {
+void PlanNoise::draw_widths(const solvers::ActionSpace& space) {
     constexpr std::size_t least_rows = 4, most_rows = 32, most_values = std::size_t{1} << 16;
     constexpr std::size_t any = 10;
-    const std::size_t values = numbers_.size(), reals = values / plans_;
+    using Range = solvers::RealHead::Range;
+    const std::size_t values = values_.size(), reals = space.reals.size();
     rows_of_widths_ = std::clamp(most_values / values, least_rows, most_rows);
     widths_.resize(rows_of_widths_ * values);
     RandomStream stream(0, 0, 0);
     std::vector<float> drawn(values);
-    std::vector<std::pair<float, std::size_t>> order(plans_);  // by the greatest width of a plan
+    std::vector<std::pair<float, std::size_t>> order(pairs_);  // by the greatest width of a pair
     for (float* row = widths_.data(); row < widths_.data() + widths_.size(); row += values) {
-        for (float& width : drawn) width = noise_tables().widths[stream.below(NoiseTables::size)];
-        for (std::size_t p = 0; p < plans_; ++p) {
-            const float* const plan = drawn.data() + p * reals;
-            order[p] = {*std::max_element(plan, plan + reals), p};
+        for (std::size_t k = 0; k < values; ++k) {
+            const bool has_bounds = space.reals[k % reals].range == Range::Bounded;
+            drawn[k] = has_bounds ? 1 : noise_tables().widths[stream.below(NoiseTables::size)];
         }
-        std::sort(order.begin() + static_cast<std::ptrdiff_t>(std::min(any, plans_)), order.end());
-        for (std::size_t p = 0; p < plans_; ++p)
+        for (std::size_t p = 0; p < pairs_; ++p) {
+            const float* const pair = drawn.data() + p * reals;
+            order[p] = {*std::max_element(pair, pair + reals), p};
+        }
+        std::sort(order.begin() + static_cast<std::ptrdiff_t>(std::min(any, pairs_)), order.end());
+        for (std::size_t p = 0; p < pairs_; ++p)
             std::copy_n(drawn.data() + order[p].second * reals, reals, row + p * reals);
     }
 }
 
 void PlanNoise::restart(RandomStream& stream) {
-    is_first_ = true;
+    is_first_numbers_ = is_first_ranks_ = true;
     if (!widths_.empty())
         row_of_widths_ = stream.below(static_cast<std::uint32_t>(rows_of_widths_));
     if (ranks_.empty()) return;
@@ -120,19 +131,25 @@ void PlanNoise::restart(RandomStream& stream) {
     }
 }
 
-void PlanNoise::next_step(RandomStream& stream) {
-    const float* const old = is_first_ ? nothing_.data() : old_.data();
-    const float* const fresh = is_first_ ? all_.data() : fresh_.data();
+void PlanNoise::next_numbers(RandomStream& stream, const NumberScales& scales, float* numbers) {
+    const float* const old = is_first_numbers_ ? nothing_.data() : old_.data();
+    const float* const fresh = is_first_numbers_ ? all_.data() : fresh_.data();
     const float* const bells = noise_tables().bells;
-    for_each_run(stream, numbers_.size(),
+    float* const mirrored = numbers + values_.size();
+    for_each_run(stream, values_.size(), scales.period,
                  [&](std::size_t first, std::size_t count, std::size_t place) {
-                     loops_.next_numbers({old + first, fresh + first, bells + place}, count,
-                                         numbers_.data() + first);
+                     loops_.draw_numbers(
+                         {old + first, fresh + first, bells + place, widths() + first}, scales,
+                         first, count, values_.data() + first, numbers + first, mirrored + first);
                  });
-    const std::uint32_t* const keep = is_first_ ? no_chance_.data() : keep_.data();
+    is_first_numbers_ = false;
+}
+
+void PlanNoise::next_ranks(RandomStream& stream) {
+    const std::uint32_t* const keep = is_first_ranks_ ? no_chance_.data() : keep_.data();
     for (std::int32_t* row = ranks_.data(); row < ranks_.data() + ranks_.size(); row += plans_)
         loops_.next_ranks({key_of(stream), keep}, plans_, row);
-    is_first_ = false;
+    is_first_ranks_ = false;
 }
 
 }  // namespace rddlc::planners

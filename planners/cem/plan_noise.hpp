@@ -16,22 +16,25 @@ class PlanNoise {
   public:
     // The noise of plan p has the correlation correlations[p % correlations.size()]. That of its
     // ranks changes more slowly from plan to plan, so that there is each of both together.
-    PlanNoise(std::size_t plans, int reals, int ranks, std::span<const double> correlations);
+    PlanNoise(std::size_t plans, const solvers::ActionSpace& space,
+              std::span<const double> correlations);
 
     // The plans begin again: the next step depends on nothing before it.
     void restart(RandomStream& stream);
-    void next_step(RandomStream& stream);
-
-    // Each real of each plan, one plan after the other, has a number with mean 0 and deviation 1,
+    // Each real of each plan, one plan after the other, has noise with mean 0 and deviation 1,
     // between -3 and 3: an autoregressive process of sums of three uniform numbers. A search needs
-    // no tails.
-    const float* numbers() const { return numbers_.data(); }
-    // How wide the noise of a real is in each plan where numbers have no bounds, so that it is not
-    // known how large they have to be: as often more than 1 as less, and more than 7 in one plan of
-    // ten. Each real is narrow in some plans, so that its costs do not hide what the others gain.
-    // Plans side by side are about as wide: where wide ones end early, or leave the numbers that
-    // engines are fast with, whole blocks of environments do.
-    const float* widths() const { return widths_.data() + row_of_widths_ * numbers_.size(); }
+    // no tails. Plans in the second half of a population are mirror images of those in the first
+    // half: what is drawn once serves for two numbers. Writes those of a step, for an even number
+    // of plans.
+    void next_numbers(RandomStream& stream, const NumberScales& scales, float* numbers);
+    void next_ranks(RandomStream& stream);
+
+    // How wide the noise of a real is in each pair of plans where numbers have no bounds, so that
+    // it is not known how large they have to be: as often more than 1 as less, and more than 7 in
+    // one plan of ten. Each real is narrow in some plans, so that its costs do not hide what the
+    // others gain. Plans side by side are about as wide: where wide ones end early, or leave the
+    // numbers that engines are fast with, whole blocks of environments do.
+    const float* widths() const { return widths_.data() + row_of_widths_ * values_.size(); }
     // Plans that do what is usual most of the time: below the habit of a plan its rank says so, and
     // the others have to be stretched by that much over all ranks. The habit of every other plan is
     // 0; those between depart from what is usual once in 1 to 128 steps.
@@ -42,20 +45,20 @@ class PlanNoise {
     const std::int32_t* ranks(std::size_t rank) const { return ranks_.data() + rank * plans_; }
 
   private:
-    void draw_widths();
+    void draw_widths(const solvers::ActionSpace& space);
 
     const PlanLoops& loops_;
-    const std::size_t plans_;
-    bool is_first_ = true;
-    Aligned<float> old_, fresh_;       // weights: [plan][real]
+    const std::size_t plans_, pairs_;
+    bool is_first_numbers_ = true, is_first_ranks_ = true;
+    Aligned<float> old_, fresh_;       // weights: [pair][real]
     std::vector<std::uint32_t> keep_;  // the probability of an old rank, in 256ths, by plan
     Aligned<float> nothing_, all_;     // the same of first steps
-    Aligned<float> widths_;            // [row][plan][real]
+    Aligned<float> widths_;            // [row][pair][real]
     std::size_t rows_of_widths_ = 1, row_of_widths_ = 0;
     std::vector<std::uint32_t> no_chance_;
     std::vector<std::int32_t> habits_;
     std::vector<float> stretches_;
-    Aligned<float> numbers_;           // [plan][real]
+    Aligned<float> values_;            // [pair][real]
     std::vector<std::int32_t> ranks_;  // [rank][plan]
 };
 

@@ -24,13 +24,14 @@ class Population {
   public:
     Population(std::size_t plans, int reals, int indices)
         : plans_(plans),
+          row_((plans + 1) / 2 * 2 * static_cast<std::size_t>(reals)),
           reals_(static_cast<std::size_t>(reals)),
           indices_(static_cast<std::size_t>(indices)) {}
 
     // The plans get so many steps. Their values are any until they are written.
     void set_steps(std::int64_t steps) {
         steps_ = static_cast<std::size_t>(steps);
-        number_values_.resize(steps_ * reals_ * plans_ + slack);
+        number_values_.resize(steps_ * row_ + slack);
         index_values_.resize(steps_ * indices_ * plans_);
     }
     std::size_t plans() const { return plans_; }
@@ -38,11 +39,9 @@ class Population {
 
     std::size_t reals() const { return reals_; }
 
-    // All numbers of a step: those of a plan are a row.
-    float* numbers(std::size_t step) { return number_values_.data() + step * reals_ * plans_; }
-    const float* numbers(std::size_t step) const {
-        return number_values_.data() + step * reals_ * plans_;
-    }
+    // All numbers of a step, one plan after the other; with room for an even number of plans.
+    float* numbers(std::size_t step) { return number_values_.data() + step * row_; }
+    const float* numbers(std::size_t step) const { return number_values_.data() + step * row_; }
     // An index of a step, of all plans.
     std::int32_t* indices(std::size_t step, std::size_t index) {
         return index_values_.data() + (step * indices_ + index) * plans_;
@@ -54,19 +53,24 @@ class Population {
     // Copies the first steps of a plan that has at least as many.
     void put(std::size_t plan, const Plan& from) {
         for (std::size_t t = 0; t < steps_; ++t)
-            std::copy_n(from.numbers.data() + t * reals_, reals_, numbers(t) + plan * reals_);
+            copy_few(from.numbers.data() + t * reals_, numbers(t) + plan * reals_);
         for (std::size_t k = 0; k < steps_ * indices_; ++k)
             index_values_[k * plans_ + plan] = from.indices[k];
     }
     void get(std::size_t plan, Plan& to) const {
         for (std::size_t t = 0; t < steps_; ++t)
-            std::copy_n(numbers(t) + plan * reals_, reals_, to.numbers.data() + t * reals_);
+            copy_few(numbers(t) + plan * reals_, to.numbers.data() + t * reals_);
         for (std::size_t k = 0; k < steps_ * indices_; ++k)
             to.indices[k] = index_values_[k * plans_ + plan];
     }
 
   private:
-    std::size_t plans_, reals_, indices_, steps_ = 0;
+    // A call would take longer than the copy.
+    void copy_few(const float* from, float* to) const {
+        for (std::size_t r = 0; r < reals_; ++r) to[r] = from[r];
+    }
+
+    std::size_t plans_, row_, reals_, indices_, steps_ = 0;
     Aligned<float> number_values_;
     std::vector<std::int32_t> index_values_;
 };

@@ -12,43 +12,56 @@
 namespace rddlc::planners {
 
 void Cem::rank() {
-    noop_value_ = -std::numeric_limits<double>::infinity();  // where it has no place
-    for (std::size_t c = 0; c < population_; ++c) {
-        const auto found = scenarios_ == 1 ? MeanAndError{futures_.value(c), 0}  // finite, or -inf
-                                           : mean_and_error(scenarios_, [&](std::size_t s) {
-                                                 return futures_.value(s * population_ + c);
-                                             });
-        values_[c] = found.mean;
-        errors_[c] = found.error;
-        if (origins_[c] == Origin::Noop) noop_value_ = found.mean;
+    if (scenarios_ == 1) {
+        std::ranges::copy(futures_.values(), values_.begin());
+        std::ranges::fill(errors_, 0.0);
+    } else {
+        for (std::size_t c = 0; c < population_; ++c) {
+            const auto found = mean_and_error(
+                scenarios_, [&](std::size_t s) { return futures_.value(s * population_ + c); });
+            values_[c] = found.mean;
+            errors_[c] = found.error;
+        }
     }
+    const auto noop = std::ranges::find(origins_, Origin::Noop);
+    noop_value_ = noop == origins_.end()
+                      ? -std::numeric_limits<double>::infinity()
+                      : values_[static_cast<std::size_t>(noop - origins_.begin())];
     sort_best();
 }
 
 namespace {
 
 // Integers in the order of doubles, and back.
-std::int64_t ordered(double x) {
-    const auto bits = std::bit_cast<std::int64_t>(x);
-    return bits ^ ((bits >> 63) & std::numeric_limits<std::int64_t>::max());
+constexpr std::uint64_t sign_bit = std::uint64_t{1} << 63;
+std::uint64_t ordered(double x) {
+    const auto bits = std::bit_cast<std::uint64_t>(x);
+    return bits & sign_bit ? ~bits : bits | sign_bit;
 }
-double from_ordered(std::int64_t place) {
-    return std::bit_cast<double>(place ^
-                                 ((place >> 63) & std::numeric_limits<std::int64_t>::max()));
+double from_ordered(std::uint64_t place) {
+    return std::bit_cast<double>(place & sign_bit ? place & ~sign_bit : ~place);
 }
 
 // A limit above which there are at least `wanted` values and, unless many are equal, few more.
-// It is -inf where fewer values than that are above -inf.
-double limit_of_best(const PlanLoops& loops, std::span<const double> values, std::size_t wanted) {
+// It is -inf where fewer values than that are above -inf. Goes away from the guess by longer and
+// longer steps until the limit lies between, and bisects then.
+double limit_of_best(const PlanLoops& loops, std::span<const double> values, std::size_t wanted,
+                     double guess) {
     constexpr std::size_t few = 8;
-    std::int64_t low = ordered(-std::numeric_limits<double>::infinity());
-    std::int64_t high = ordered(*std::ranges::max_element(values));
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    constexpr std::uint64_t longest = std::uint64_t{1} << 62;
+    const std::uint64_t lowest = ordered(-infinity), highest = ordered(infinity);
+    std::uint64_t low = lowest, high = highest, middle = ordered(guess);
+    std::uint64_t step = std::uint64_t{1} << 46;  // about a hundredth of the guess
     while (high - low > 1) {
-        const std::int64_t middle = low + (high - low) / 2;
         const std::size_t above =
             loops.count_above(values.data(), values.size(), from_ordered(middle));
         (above < wanted ? high : low) = middle;
         if (above >= wanted && above <= wanted + few) break;
+        const std::uint64_t half = (high - low) / 2;
+        middle = low == lowest ? high - std::min(step, half) : low + std::min(step, half);
+        if (low != lowest && high != highest) middle = low + half;
+        step = std::min(step, longest / 4) * 4;
     }
     return from_ordered(low);
 }
@@ -63,19 +76,26 @@ void Cem::sort_best() {
             : std::max({elites(), static_cast<std::size_t>(options_.kept), most_compared});
     if (wanted >= population_) {
         std::iota(order_.begin(), order_.end(), std::size_t{0});
+        ordered_ = population_;
+        limit_ = std::numeric_limits<double>::infinity();
         return sort_first(population_);
     }
-    const double limit = limit_of_best(loops_, values_, wanted);
-    std::size_t best = 0, others = 0;
-    for (std::size_t c = 0; c < population_; ++c) {  // without branches
-        const bool is_best = values_[c] > limit;
-        order_[best] = c;
-        others_[others] = c;
-        best += is_best;
-        others += !is_best;
+    // Populations that follow each other are about as good.
+    limit_ = limit_of_best(loops_, values_, wanted, std::isfinite(limit_) ? limit_ : 0);
+    // Without branches, and with copies of members, which need not be read again.
+    const double limit = limit_;
+    const double* const values = values_.data();
+    std::size_t* const order = order_.data();
+    std::size_t best = 0;
+    for (std::size_t c = 0; c < population_; ++c) {
+        order[best] = c;
+        best += values[c] > limit;
     }
-    std::copy_n(others_.begin(), others, order_.begin() + static_cast<std::ptrdiff_t>(best));
-    sort_first(best);
+    // All others are equal where these are too few.
+    for (std::size_t c = 0; best < wanted; ++c)
+        if (!(values[c] > limit)) order[best++] = c;
+    ordered_ = best;
+    sort_first(ordered_);
 }
 
 // So many of order_, which are in the order of plans. Few are ordered by counting: a sort guesses
@@ -101,8 +121,17 @@ std::size_t Cem::elites() const {
     return static_cast<std::size_t>(std::ceil(options_.elites * static_cast<double>(population_)));
 }
 
+// Plans that are not among the best follow, in the order of the population.
+void Cem::add_others() {
+    std::ranges::fill(is_ordered_, std::uint8_t{0});
+    for (std::size_t k = 0; k < ordered_; ++k) is_ordered_[order_[k]] = 1;
+    for (std::size_t c = 0; c < population_; ++c)
+        if (!is_ordered_[c]) order_[ordered_++] = c;
+}
+
 // Whether at most half of the population is as good.
 bool Cem::is_above_median(double value) const {
+    if (value > limit_ && ordered_ <= population_ / 2) return true;
     const auto as_good = std::ranges::count_if(values_, [=](double v) { return v >= value; });
     return static_cast<std::size_t>(as_good) <= population_ / 2;
 }
@@ -152,6 +181,7 @@ void Cem::keep_best(Memory& memory) {
 // A population that was not played to its end counts only with the plans that were kept before.
 void Cem::rank_kept(const Memory& memory) {
     std::iota(order_.begin(), order_.end(), std::size_t{0});
+    ordered_ = population_;
     for (std::size_t c = 0; c < population_; ++c) {
         const bool is_kept = c < memory.kept_count;
         values_[c] =

@@ -50,7 +50,8 @@ void Rollout::find_candidates(const DecisionPoint& point, RandomStream& stream) 
     } else {
         draw_actions(point, stream);
         for (std::size_t a = 0; a * action_size_ < drawn_.size(); ++a)
-            add(drawn_.data() + a * action_size_);
+            if (candidates_.size() < static_cast<std::size_t>(options_.actions))
+                add(drawn_.data() + a * action_size_);
     }
     left_.resize(candidates_.size());
     for (std::size_t c = 0; c < left_.size(); ++c) left_[c] = c;
@@ -139,13 +140,14 @@ bool Rollout::try_all(const DecisionPoint& point, RandomStream& stream, BudgetMe
     return true;
 }
 
-// The better half stays, and the policy's action.
+// The better half stays, and the policy's action. Half of a batch of candidates, each with two
+// draws, is a batch again.
 void Rollout::halve() {
     if (left_.size() <= 2) return;
     std::stable_sort(left_.begin() + 1, left_.end(), [&](std::size_t a, std::size_t b) {
         return candidates_[a].mean() > candidates_[b].mean();
     });
-    left_.resize(1 + left_.size() / 2);
+    left_.resize((left_.size() + 1) / 2);
 }
 
 std::size_t Rollout::best() const {

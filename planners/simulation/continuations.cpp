@@ -8,19 +8,19 @@
 namespace rddlc::planners {
 
 Continuations::Continuations(const rddl_simulator& simulator, std::int64_t lanes,
-                             std::int64_t horizon, bool keeps_first_states)
+                             std::int64_t horizon, bool keeps_first_steps)
     : simulator_(simulator),
       state_size_(static_cast<std::size_t>(simulator.problem->state_size)),
       action_size_(static_cast<std::size_t>(simulator.problem->action_size)),
       futures_(simulator, lanes, horizon),
       states_(futures_.running().size() * state_size_),
-      first_actions_(futures_.running().size() * action_size_),
-      first_states_(keeps_first_states ? states_.size() : 0),
-      actions_(first_actions_.size()),
+      first_actions_(keeps_first_steps ? futures_.running().size() * action_size_ : 0),
+      first_states_(keeps_first_steps ? states_.size() : 0),
+      actions_(futures_.running().size() * action_size_),
       steps_(futures_.running().size()),
       streams_(steps_.size()),
       wanted_(steps_.size()),
-      first_rewards_(steps_.size()) {}
+      first_rewards_(keeps_first_steps ? steps_.size() : 0) {}
 
 namespace {
 
@@ -79,16 +79,15 @@ bool Continuations::run(const DecisionPoint& point, std::span<const Start> start
             policy.act(futures_, wanted_, actions_.data(), point.stops);
         else if (depth_ == 1 || !policy.is_constant())
             policy.act(futures_, actions_.data(), point.stops);
-        if (depth_ == 0) std::ranges::copy(actions_, first_actions_.begin());
+        if (depth_ == 0 && keeps_first_steps()) std::ranges::copy(actions_, first_actions_.begin());
         if (depth_ % 4 == 0 && meter.is_late()) return false;
         futures_.step(actions_.data());
         const auto idle = static_cast<std::int64_t>(depth_ == 0 ? lanes() - starts.size() : 0);
         meter.add_steps(futures_.stepped() - idle);
-        if (depth_ > 0) continue;
-        if (!first_states_.empty())
-            solvers::require_done(
-                simulator_,
-                simulator_.get_state(futures_.batch(), 0, futures_.count(), first_states_.data()));
+        if (depth_ > 0 || !keeps_first_steps()) continue;
+        solvers::require_done(
+            simulator_,
+            simulator_.get_state(futures_.batch(), 0, futures_.count(), first_states_.data()));
         for (std::size_t k = 0; k < lanes(); ++k) first_rewards_[k] = futures_.reward(k);
     }
     return true;

@@ -25,9 +25,9 @@ struct Start {
 
 class Continuations {
   public:
-    // `keeps_first_states` is for callers that ask for them.
+    // `keeps_first_steps` is for callers that ask for first actions, rewards and states.
     Continuations(const rddl_simulator& simulator, std::int64_t lanes, std::int64_t horizon,
-                  bool keeps_first_states);
+                  bool keeps_first_steps);
 
     std::size_t lanes() const { return static_cast<std::size_t>(futures_.count()); }
     // Plays at most `lanes` starts. False if time was up: then the values are those of fewer steps.
@@ -52,6 +52,7 @@ class Continuations {
 
   private:
     void begin(const DecisionPoint& point, std::span<const Start> starts);
+    bool keeps_first_steps() const { return !first_rewards_.empty(); }
 
     const rddl_simulator& simulator_;
     std::size_t state_size_, action_size_;

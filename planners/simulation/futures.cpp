@@ -31,7 +31,10 @@ Futures::Futures(const rddl_simulator& simulator, std::int64_t count, std::int64
       cut_(sources_.size()) {}
 
 void Futures::begin(const Origin& origin, std::span<const std::uint64_t> streams) {
-    for (std::size_t k = 0; k < sources_.size(); ++k) sources_[k] = origin.place(streams[k]);
+    if (origin.count == 1)
+        std::ranges::fill(sources_, origin.first);
+    else
+        for (std::size_t k = 0; k < sources_.size(); ++k) sources_[k] = origin.place(streams[k]);
     require_done(simulator_, simulator_.copy_environments(batch_.get(), 0, count(), origin.batch,
                                                           sources_.data()));
     require_done(simulator_, simulator_.set_seeds(batch_.get(), 0, count(), streams.data()));
@@ -53,7 +56,13 @@ void Futures::place(const std::byte* states, std::span<const std::int64_t> steps
 void Futures::look_at_causes(bool are_alike) {
     require_done(simulator_,
                  simulator_.get_causes(batch_.get(), 0, are_alike ? 1 : count(), causes_.data()));
-    if (are_alike) std::ranges::fill(causes_, causes_.front());
+    if (are_alike) {
+        const bool is_running = causes_.front() == RDDL_RUNNING;
+        std::ranges::fill(causes_, causes_.front());
+        std::ranges::fill(running_, static_cast<std::uint8_t>(is_running));
+        running_count_ = is_running ? count() : 0;
+        return;
+    }
     running_count_ = 0;
     for (std::size_t k = 0; k < running_.size(); ++k)
         running_count_ += running_[k] = causes_[k] == RDDL_RUNNING;
@@ -96,14 +105,30 @@ void Futures::take_step() {
             bad |= std::bit_cast<std::uint64_t>(rewards[k] - rewards[k]);
             returns[k] += discount * rewards[k];
         }
-        if (ends != RDDL_RUNNING || bad != 0) end_some(first, last);
+        if (ends == RDDL_RUNNING && bad == 0) continue;
+        if (bad == 0 && !(ends & RDDL_FAULTED))
+            end_well(first, last);
+        else
+            end_some(first, last);
     }
     made_ += 1;
     if (made_ >= next_limit_) end_by_limits();
     discount_ *= simulator_.problem->discount;
 }
 
-// Ends each of these lanes that has ended in the batch, or whose reward is bad.
+// Ends each of these lanes that has ended in the batch, without branches.
+void Futures::end_well(std::size_t first, std::size_t last) {
+    std::int64_t ended = 0;
+    for (std::size_t k = first; k < last; ++k) {
+        const bool ends = running_[k] && causes_[k] != RDDL_RUNNING;
+        last_rewards_[k] = ends ? rewards_[k] : last_rewards_[k];
+        running_[k] = running_[k] && !ends;
+        ended += ends;
+    }
+    running_count_ -= ended;
+}
+
+// The same where a reward may be bad.
 void Futures::end_some(std::size_t first, std::size_t last) {
     for (std::size_t k = first; k < last; ++k) {
         const bool is_bad = (causes_[k] & RDDL_FAULTED) || !std::isfinite(rewards_[k]);

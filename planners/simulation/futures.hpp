@@ -60,6 +60,7 @@ class Futures {
     bool is_cut(std::size_t k) const { return cut_[k] != 0; }
     // The discounted sum since the beginning; -inf after a fault or a reward that is not finite.
     double value(std::size_t k) const { return returns_[k]; }
+    std::span<const double> values() const { return returns_; }
     // Adds what is expected to follow, in lanes that still run; discounted as the next step is.
     void add_to_running(std::span<const double> values) {
         for (std::size_t k = 0; k < returns_.size(); ++k)
@@ -71,6 +72,7 @@ class Futures {
     rddl_transition outputs();
     void look_at_causes(bool are_alike);
     void take_step();
+    void end_well(std::size_t first, std::size_t last);
     void end_some(std::size_t first, std::size_t last);
     void end_by_limits();
 

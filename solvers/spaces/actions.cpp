@@ -93,7 +93,10 @@ RealHead real_head(const rddl_simulator& simulator, const ActionRecords& records
         head.range = RealHead::Range::BelowUpper;
         head.scale = size(head.upper, -1);
     } else {
-        head.scale = std::min(size(head.centre, 1), size(head.centre, -1));
+        // Floats near the default have to differ from it.
+        constexpr double least_part = 0x1p-10;
+        head.scale = std::max(std::min(size(head.centre, 1), size(head.centre, -1)),
+                              least_part * std::abs(head.centre));
     }
     return head;
 }

@@ -34,13 +34,15 @@ struct RealHead {
     double lower = 0, upper = 0;  // of Bounded: the middle for u = 0, the bounds for -1 and 1
     // Squashed: the same of tanh(u), which never leaves the bounds.
     double scale = 1;   // of the others: lower + scale * softplus(u), or
-    double centre = 0;  // centre + scale * u
+    double centre = 0;  // centre + scale * u; the default
     int choice = -1;    // with sub-actions: the choice that sets it
 
-    // Values are limited to the bounds; in a direction without one to 1e9, or twice the other bound
-    // where that is more.
-    double least() const { return limit(lower, std::min(-1e9, 2 * upper)); }
-    double most() const { return limit(upper, std::max(1e9, 2 * lower)); }
+    // Values are limited to the bounds; in a direction without one to 1e9, or to twice the other
+    // bound or the default where that is more.
+    double least() const {
+        return limit(lower, std::min({-1e9, 2 * upper, -2 * std::abs(centre)}));
+    }
+    double most() const { return limit(upper, std::max({1e9, 2 * lower, 2 * std::abs(centre)})); }
 
   private:
     // Ints stay within 64 bits, also when they are rounded to a float.

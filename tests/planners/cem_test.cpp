@@ -111,8 +111,8 @@ TEST(Cem, SizesPopulationsByWhatNearPlansLeave) {
     const auto populations = [](const std::string& options) {
         return run(network(), "plan:cem,scenarios=1," + options).thought(0, 0).iterations;
     };
-    const std::int64_t near = populations("near=0,horizon=2,steps=800");
-    EXPECT_EQ(populations("near=0.5,horizon=4,steps=1600"), near + 4);
+    const std::int64_t near = populations("near=0,horizon=2,steps=1600");
+    EXPECT_EQ(populations("near=0.5,horizon=4,steps=3200"), near + 4);
 }
 
 TEST(Budget, HasShares) {
@@ -163,7 +163,7 @@ Population draw_one(const solvers::ActionSpace& space, Distribution& distributio
                     double correlation, Plan& drawn) {
     Population population(1, space.real_count(), space.index_count());
     population.set_steps(distribution.steps());
-    PlanNoise noise(1, space.real_count(), space.index_count(), {&correlation, 1});
+    PlanNoise noise(1, space, {&correlation, 1});
     RandomStream stream(1, 2, 3);
     distribution.draw(stream, noise, population);
     population.get(0, drawn);
@@ -244,7 +244,7 @@ TEST(Plans, AreSometimesUsual) {
     Population population(plans, space.real_count(), space.index_count());
     population.set_steps(steps);
     const double correlation = 0;
-    PlanNoise noise(plans, space.real_count(), space.index_count(), {&correlation, 1});
+    PlanNoise noise(plans, space, {&correlation, 1});
     RandomStream stream(1, 2, 3);
     distribution.draw(stream, noise, population);
     double departures[2] = {0, 0};

@@ -39,7 +39,7 @@ TEST(PlanLoops, ComputeTheSameBitsOnAllInstructionSets) {
     const auto run = [](const char* instruction_set) {
         const PlanLoops& loops = loops_of(instruction_set);
         std::vector<float> old(plans, 0.8f), fresh(plans, 0.6f), noise(plans, 0.25f),
-            numbers(plans), drawn(plans);
+            widths(plans, 1.5f), numbers(plans), mirrored(plans), drawn(plans);
         std::vector<std::uint32_t> keep(plans, 100);
         std::vector<std::int32_t> ranks(plans, 5), reached(plans), thresholds;
         std::vector<double> values(plans);
@@ -51,9 +51,7 @@ TEST(PlanLoops, ComputeTheSameBitsOnAllInstructionSets) {
         for (std::uint32_t key = 1; key < 40; ++key) {
             for (std::size_t p = 0; p < plans; ++p)
                 drawn[p] = static_cast<float>(static_cast<int>((p + 1) * key % 61) - 30) * 0.1f;
-            loops.next_numbers({old.data(), fresh.data(), drawn.data()}, plans, noise.data());
             loops.next_ranks({key, keep.data()}, plans, ranks.data());
-            note(noise);
             note(ranks);
         }
         for (const int count : {1, 3, 15, 31, 127}) {
@@ -86,18 +84,31 @@ TEST(PlanLoops, ComputeTheSameBitsOnAllInstructionSets) {
             // Two reals, of which the other one is free.
             constexpr float infinity = std::numeric_limits<float>::infinity();
             const float means[] = {0.5f, 0}, deviations[] = {2, 1};
-            const float least[] = {-1, -infinity};
-            const float most[] = {range == Range::Bounded ? 1 : infinity, infinity};
+            const float least[] = {range == Range::Free ? -infinity : 0, -infinity};
+            const float most[] = {range == Range::Bounded ? 2 : infinity, infinity};
             std::vector<float> all_means(2 * repetitions), all_deviations(2 * repetitions),
                 all_least(2 * repetitions), all_most(2 * repetitions);
             repeat(means, 2, all_means.data());
             repeat(deviations, 2, all_deviations.data());
             repeat(least, 2, all_least.data());
             repeat(most, 2, all_most.data());
-            loops.scale_numbers({2 * repetitions, all_means.data(), all_deviations.data(),
-                                 all_least.data(), all_most.data()},
-                                old.data(), noise.data(), plans, numbers.data());
-            note(numbers);
+            for (std::size_t first : {0, 6}) {  // the second one is that of the seventh real
+                const std::vector<float> before = noise;
+                loops.draw_numbers({old.data(), fresh.data(), drawn.data(), widths.data()},
+                                   {2 * repetitions, all_means.data(), all_deviations.data(),
+                                    all_least.data(), all_most.data()},
+                                   first, plans, noise.data(), numbers.data(), mirrored.data());
+                note(noise);
+                note(numbers);
+                note(mirrored);
+                for (std::size_t p = 0; p < plans; ++p) {
+                    EXPECT_EQ(noise[p], 0.8f * before[p] + 0.6f * drawn[p]);
+                    const std::size_t r = p % 2;
+                    const float away = deviations[r] * 1.5f * noise[p];
+                    EXPECT_EQ(numbers[p], std::clamp(means[r] + away, least[r], most[r]));
+                    EXPECT_EQ(mirrored[p], std::clamp(means[r] - away, least[r], most[r]));
+                }
+            }
             for (const bool rounds : {false, true}) {
                 for (const double exact_default : {0.1, 0.125}) {  // in doubles, and in floats
                     const RealScale reals[] = {scale_of_range(range, rounds, exact_default),
@@ -161,14 +172,18 @@ TEST(PlanLoops, GiveRealsTheirValues) {
         head.upper = range == Range::AboveLower || range == Range::Free ? infinity : 7.25;
         head.scale = 3;
         head.centre = 0.5;
+        const auto [least, most] = number_limits(head);
+        const float middle = middle_number(range);
         std::vector<float> numbers;
-        for (float u = -200; u < 200; u += 0.37f) numbers.push_back(u);
+        for (float u = -200; u < 200; u += 0.37f)
+            numbers.push_back(std::clamp(u + middle, least, most));
         const std::vector<double> values =
             values_of({range, false, head.lower, head.upper, head.scale, head.centre, head.least(),
                        head.most(), 0.1f, 0.1},
                       numbers);
         for (std::size_t k = 0; k < numbers.size(); ++k) {
-            const double expected = solvers::real_value(head, static_cast<double>(numbers[k]));
+            const double expected =
+                solvers::real_value(head, static_cast<double>(numbers[k] - middle));
             const bool is_bent = range == Range::AboveLower || range == Range::BelowUpper;
             const double difference = is_bent ? 0.076 * head.scale : 0;
             EXPECT_NEAR(values[k], expected, difference + 1e-5 * (1 + std::abs(expected)))
@@ -190,17 +205,28 @@ TEST(PlanLoops, GiveRealsTheirValues) {
         EXPECT_EQ(again == -2, written == -2);
     }
     // 0.1f is beyond a bound of 0.1.
-    EXPECT_EQ(value_of({Range::Bounded, false, -0.1, 0.1, 1, 0, -0.1, 0.1, 0.0f, 0.0}, 1), 0.1);
+    EXPECT_EQ(value_of({Range::Bounded, false, -0.1, 0.1, 1, 0, -0.1, 0.1, 0.0f, 0.0}, 2), 0.1);
     // 0.05f, which lies above 0.05, is as near as floats get to that bound.
-    EXPECT_EQ(value_of({Range::AboveLower, false, 0.05, infinity, 1, 0, 0.05, 1e9, 1.0f, 1}, -9),
+    EXPECT_EQ(value_of({Range::AboveLower, false, 0.05, infinity, 1, 0, 0.05, 1e9, 1.0f, 1}, 0),
               static_cast<double>(0.05f));
     // 0.7f lies below 0.7.
-    EXPECT_EQ(value_of({Range::AboveLower, false, 0.7, infinity, 1, 0, 0.7, 1e9, 1.0f, 1}, -9),
+    EXPECT_EQ(value_of({Range::AboveLower, false, 0.7, infinity, 1, 0, 0.7, 1e9, 1.0f, 1}, 0),
               static_cast<double>(std::nextafter(0.7f, 1.0f)));
     // Ints are within 1e9 also where they have no bounds.
     const float huge = 1e30f;
     EXPECT_EQ(value_of({Range::Free, true, -infinity, infinity, 1, 0, -1e9, 1e9, 0.0f, 0.0}, huge),
               1e9);
+    // A default beyond 1e9 is the middle of what plans draw.
+    solvers::RealHead far;
+    far.lower = -infinity;
+    far.upper = infinity;
+    far.centre = 3e9;
+    far.scale = 1e6;
+    const RealScale far_scale{Range::Free, false,       -infinity,  infinity, far.scale,
+                              far.centre,  far.least(), far.most(), 3e9f,     3e9};
+    EXPECT_EQ(value_of(far_scale, middle_number(far.range)), 3e9);
+    EXPECT_NEAR(value_of(far_scale, number_limits(far).most), 6e9, 1e3);
+    EXPECT_NEAR(value_of(far_scale, number_limits(far).least), -6e9, 1e3);
     // Bounds beyond the floats do not make actions infinite.
     EXPECT_EQ(
         value_of({Range::AboveLower, false, 1e308, infinity, 1, 0, 1e308, infinity, 0.0f, 0.0},
@@ -208,17 +234,25 @@ TEST(PlanLoops, GiveRealsTheirValues) {
         1e308);
     const RealScale widest{Range::Bounded, false,   -1.7e308, 1.7e308, 1, 0,
                            -1.7e308,       1.7e308, 0.0f,     0.0};
-    EXPECT_EQ(value_of(widest, 1), static_cast<double>(std::numeric_limits<float>::max()));
-    EXPECT_EQ(value_of(widest, 0), 0);
+    EXPECT_EQ(value_of(widest, 2), static_cast<double>(std::numeric_limits<float>::max()));
+    EXPECT_EQ(value_of(widest, 1), 0);
     // A value that is the default as a float is the default itself.
     EXPECT_EQ(value_of({Range::Free, false, -infinity, infinity, 1, 0.1, -1e9, 1e9, 0.1f, 0.1}, 0),
               0.1);
 }
 
+// So many reals without bounds, and bools.
+solvers::ActionSpace space_of(std::size_t reals, std::size_t bools) {
+    solvers::ActionSpace space;
+    space.reals.resize(reals);
+    space.categories.resize(bools);
+    return space;
+}
+
 TEST(PlanNoise, DrawsWidthsAboveAndBelowOne) {
     constexpr std::size_t many = 20'000;
     const double correlation = 0;
-    PlanNoise noise(many, 1, 0, {&correlation, 1});
+    PlanNoise noise(2 * many, space_of(1, 0), {&correlation, 1});
     double sum = 0, squares = 0;
     for (const float width : std::span(noise.widths(), many)) {
         const auto power = static_cast<double>(std::log(width));
@@ -233,7 +267,7 @@ TEST(PlanNoise, DrawsWidthsAboveAndBelowOne) {
 TEST(PlanNoise, PutsPlansOfAboutTheSameWidthSideBySide) {
     constexpr std::size_t first = 10, many = 60;  // the first ones are any
     const double correlation = 0;
-    PlanNoise noise(many, 2, 0, {&correlation, 1});
+    PlanNoise noise(2 * many, space_of(2, 0), {&correlation, 1});
     RandomStream stream(1, 2, 3);
     std::set<float> drawn;
     for (int k = 0; k < 8; ++k) {
@@ -250,15 +284,28 @@ TEST(PlanNoise, PutsPlansOfAboutTheSameWidthSideBySide) {
 TEST(PlanNoise, IsCorrelatedAndKeepsItsDistribution) {
     constexpr std::size_t many = 20'000;
     for (const double correlation : {0.0, 0.8}) {
-        PlanNoise noise(many, 1, 1, {&correlation, 1});
+        PlanNoise noise(2 * many, space_of(1, 1), {&correlation, 1});
         RandomStream stream(1, 2, 3);
-        for (int t = 0; t < 10; ++t) noise.next_step(stream);
-        const std::vector<float> before(noise.numbers(), noise.numbers() + many);
+        std::vector<float> numbers(2 * many);
+        const std::vector<float> zeros(repetitions, 0), ones(repetitions, 1),
+            least(repetitions, -1e9f), most(repetitions, 1e9f);
+        const auto next_step = [&] {
+            noise.next_numbers(stream,
+                               {repetitions, zeros.data(), ones.data(), least.data(), most.data()},
+                               numbers.data());
+            for (std::size_t p = 0; p < many; ++p) {
+                EXPECT_EQ(numbers[p], -numbers[many + p]);
+                numbers[p] /= noise.widths()[p];
+            }
+            noise.next_ranks(stream);
+        };
+        for (int t = 0; t < 10; ++t) next_step();
+        const std::vector<float> before = numbers;
         const std::vector<std::int32_t> ranks_before(noise.ranks(0), noise.ranks(0) + many);
-        noise.next_step(stream);
+        next_step();
         double sum = 0, squares = 0, products = 0, ranks = 0, same = 0;
         for (std::size_t p = 0; p < many; ++p) {
-            const auto x = static_cast<double>(noise.numbers()[p]);
+            const auto x = static_cast<double>(numbers[p]);
             sum += x;
             squares += x * x;
             products += x * static_cast<double>(before[p]);
@@ -271,12 +318,12 @@ TEST(PlanNoise, IsCorrelatedAndKeepsItsDistribution) {
         EXPECT_NEAR(ranks / many / rank_count, 0.5, 0.011);
         EXPECT_NEAR(same / many, correlation, 0.02);
         // Plans that begin again know nothing of what was before.
-        const std::vector<float> last(noise.numbers(), noise.numbers() + many);
+        const std::vector<float> last = numbers;
         noise.restart(stream);
-        noise.next_step(stream);
+        next_step();
         products = 0;
         for (std::size_t p = 0; p < many; ++p)
-            products += static_cast<double>(noise.numbers()[p]) * static_cast<double>(last[p]);
+            products += static_cast<double>(numbers[p]) * static_cast<double>(last[p]);
         EXPECT_NEAR(products / many, 0, 0.035);
         const float* const widths = noise.widths();
         const auto share = [&](auto condition) {
@@ -297,7 +344,7 @@ TEST(PlanActions, AreThoseOfSinglePlans) {
         Population population(plans, space.real_count(), space.index_count());
         population.set_steps(1);
         const double correlation = 0;
-        PlanNoise noise(plans, space.real_count(), space.index_count(), {&correlation, 1});
+        PlanNoise noise(plans, space, {&correlation, 1});
         RandomStream stream(1, 2, 3);
         Distribution distribution(space, {});
         distribution.restart(1);
@@ -323,6 +370,8 @@ TEST(PlanActions, AreThoseOfSinglePlans) {
         int different = 0;
         for (std::size_t p = 0; p < plans; ++p) {
             population.get(p, plan);
+            for (std::size_t r = 0; r < space.reals.size(); ++r)
+                plan.numbers[r] -= middle_number(space.reals[r].range);
             solvers::write_action(space, plan.numbers.data(), plan.indices.data(), row.data());
             records.read(all.data() + p * size, written.data());
             for (std::size_t c = 0; c < row.size(); ++c)

@@ -99,7 +99,8 @@ TEST(Spaces, NumbersOfRealsMeanWhatTheirRangesSay) {
     EXPECT_EQ(real_value(head, 0.46), 4);
 }
 
-// Without a bound a value ends at 1e9, but not where the other bound lies beyond that.
+// Without a bound a value ends at 1e9, but not where the other bound or the default lies beyond
+// that.
 TEST(Spaces, BoundsMayBeFarAway) {
     RealHead head;
     head.range = RealHead::Range::Bounded;
@@ -113,6 +114,15 @@ TEST(Spaces, BoundsMayBeFarAway) {
     EXPECT_EQ(real_value(head, 1e15), 2e12);
     head.lower = 3;
     EXPECT_EQ(real_value(head, 1e15), 1e9);
+    head.centre = 3e9;
+    EXPECT_EQ(real_value(head, 1e15), 6e9);
+    head.range = RealHead::Range::Free;
+    head.lower = -INFINITY;
+    head.scale = 1e6;
+    EXPECT_EQ(real_value(head, 0), 3e9);
+    EXPECT_EQ(real_value(head, 1), 3.001e9);
+    EXPECT_EQ(real_value(head, 1e15), 6e9);
+    EXPECT_EQ(real_value(head, -1e15), -6e9);
     head.range = RealHead::Range::Bounded;
     head.rounds = true;
     head.lower = -0x1p63;

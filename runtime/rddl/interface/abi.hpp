@@ -125,6 +125,9 @@ class Functions {
             return one_by_one ? one_by_one->only_one() : nullptr;
         }();
 
+        // Room for environments that are copied into the batch.
+        std::optional<Environment> copied;
+
         const rddl_problem& problem() const { return *maker->problem; }
         template <class Use>
         decltype(auto) use(Use&& use) {
@@ -448,20 +451,26 @@ class Functions {
         if (handle(to).maker != handle(from).maker)
             return bad_argument("the batches are of different simulators");
         if (const rddl_error error = handle(to).check(begin, count)) return error;
-        for (std::int64_t k = 0; k < count; ++k)
+        // Planners ask for many copies of one environment.
+        const auto end_of_run = [&](std::int64_t k) {
+            const std::int64_t source = source_of(sources, k);
+            while (k < count && source_of(sources, k) == source) ++k;
+            return k;
+        };
+        const std::int64_t first_end = count > 0 ? end_of_run(0) : 0;
+        for (std::int64_t k = 0; k < count; k = k == 0 ? first_end : end_of_run(k))
             if (const rddl_error error = handle(from).check(source_of(sources, k), 1)) return error;
         try {
             const Parts& maker = *handle(to).maker;
-            Environment environment(*maker.problem, memory_size(maker.engine));
-            for (std::int64_t k = 0; k < count;) {
-                // Planners ask for many copies of one environment.
-                const std::int64_t source = source_of(sources, k), first = k;
-                while (k < count && source_of(sources, k) == source) ++k;
+            auto& copied = handle(to).copied;
+            if (!copied) copied.emplace(*maker.problem, memory_size(maker.engine));
+            for (std::int64_t first = 0, k = 0; first < count; first = k) {
+                k = first == 0 ? first_end : end_of_run(first);
                 handle(from).use([&](const auto& environments) {
-                    environments.get_environment(source, environment);
+                    environments.get_environment(source_of(sources, first), *copied);
                 });
                 handle(to).use([&](auto& environments) {
-                    environments.set_environments(begin + first, k - first, environment);
+                    environments.set_environments(begin + first, k - first, *copied);
                 });
             }
             return RDDL_OK;
