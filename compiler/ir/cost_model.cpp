@@ -35,7 +35,7 @@ bool is_draw(const Node& node) {
         [](const auto&) { return false; });
 }
 
-// From an index plus a constant on.
+// Whether the objects are those behind another one, whose index plus a constant is the first.
 bool is_behind_index(const Program& program, const Bounds& bounds) {
     const auto* begin = std::get_if<Apply>(&program[bounds.begin].form);
     return begin && begin->op == Operator::Add &&

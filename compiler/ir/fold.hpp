@@ -13,7 +13,7 @@ std::int64_t count_at_most(const Table& sorted, const Value& value);
 
 Value convert(const Value& value, Scalar type);
 
-// A constant as steps compute with it: those of floats round reals.
+// A constant as a step computes with it: a step of floats rounds it to one.
 Value as_in_a_step(const Value& value, RealType real);
 
 // Nothing if it faults.

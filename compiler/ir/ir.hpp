@@ -392,7 +392,7 @@ struct Definition {
     BufferId target;
     Block body;
     Span span;  // of the CPF or the value
-    // Then: Lets and a loop, which emitted code skips.
+    // If set, the body is Lets and a loop, and emitted code may skip them.
     std::optional<Unchosen> unchosen = {};
 };
 // A value with what must be computed before it.

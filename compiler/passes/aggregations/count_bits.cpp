@@ -3,6 +3,7 @@
 
 #include "ir/evaluator.hpp"
 #include "ir/rewrite.hpp"
+#include "passes/aggregations/row_words.hpp"
 
 #include <algorithm>
 #include <cstdint>
@@ -15,9 +16,8 @@
 namespace rddlc::passes {
 namespace {
 
-constexpr std::int64_t bits_in_an_int = 64;
 // More words than this cost more than rows of the few entries that they have.
-constexpr std::int64_t most_words = 8 * bits_in_an_int;
+constexpr std::int64_t most_words = 8 * bits_of_an_int;
 // The compiler looks at each of these entries.
 constexpr double most_counted_entries = 1e6;
 
@@ -319,7 +319,7 @@ class BitCounting {
         constexpr double cost_of_making = 8, cost_of_word = 3, cost_of_entry = 2;
         double entries = 0;
         for (const Row& row : *places_) entries += static_cast<double>(row.size());
-        if (nest.op != Reduction::Sum && waits_for_few(nest, entries)) return false;
+        if (nest.op != Reduction::Sum && tests_new_bools_once(nest, entries)) return false;
         const auto rows = static_cast<double>(places_->size());
         const auto words = static_cast<double>(word_count());
         const double in_bits =
@@ -327,24 +327,27 @@ class BitCounting {
         return entries * (builder_.properties(nest.condition).cost + cost_of_entry) > in_bits;
     }
 
-    // Each element is made by the step and tested once, in a short row. Its bits would be made when
-    // all elements have been stored, one by one; a loop over a row may take them from registers.
-    bool waits_for_few(const CountedNest& nest, double entries) const {
+    // The step makes each element and tests it once, in a short row. Bits wait until all elements
+    // have been stored, one by one. A loop over a short row may take them from registers.
+    bool tests_new_bools_once(const CountedNest& nest, double entries) const {
         constexpr std::size_t longest = 4;
+        if (entries > static_cast<double>(size_)) return false;
         std::vector<ir::NodeId> loads;
         collect_loads(nest.condition, loads);
-        return entries <= static_cast<double>(size_) &&
-               std::ranges::all_of(*places_,
-                                   [](const Row& row) { return row.size() <= longest; }) &&
-               std::ranges::all_of(loads, [&](ir::NodeId load) {
-                   const ir::BufferId buffer = std::get<ir::Load>(program_[load].form).buffer;
-                   return program_[buffer].storage == ir::Storage::Scratch;
-               });
+        const auto is_short = [](const Row& row) {
+            return row.size() <= longest;
+        };
+        const auto is_made_by_step = [&](ir::NodeId load) {
+            const ir::BufferId buffer = std::get<ir::Load>(program_[load].form).buffer;
+            return program_[buffer].storage == ir::Storage::Scratch;
+        };
+        return std::ranges::all_of(*places_, is_short) &&
+               std::ranges::all_of(loads, is_made_by_step);
     }
 
     // ------------------------------------------------------------------------------- making
 
-    std::int64_t word_count() const { return (size_ + bits_in_an_int - 1) / bits_in_an_int; }
+    std::int64_t word_count() const { return (size_ + bits_of_an_int - 1) / bits_of_an_int; }
 
     ir::NodeId sum(const CountedNest& nest) {
         ir::NodeId total = builder_.constant(std::int64_t{0});
@@ -380,7 +383,7 @@ class BitCounting {
     ir::NodeId word_of(const CountedNest& nest, ir::NodeId id, bool value, std::int64_t word) {
         if (builder_.properties(id).uniform) return known_word(nest, id, value, word);
         if (const auto* load = std::get_if<ir::Load>(&program_[id].form)) {
-            const ir::NodeId bits = builder_.bits(load->buffer, word * bits_in_an_int);
+            const ir::NodeId bits = builder_.bits(load->buffer, word * bits_of_an_int);
             return value ? bits : inverted(bits);
         }
         const Connective form = connective(id, value);
@@ -426,8 +429,8 @@ class BitCounting {
 
     // Ones for the elements that there are.
     std::int64_t whole_word(std::int64_t word) const {
-        const std::int64_t count = std::min(size_ - word * bits_in_an_int, bits_in_an_int);
-        return static_cast<std::int64_t>(~std::uint64_t{0} >> (bits_in_an_int - count));
+        const std::int64_t count = std::min(size_ - word * bits_of_an_int, bits_of_an_int);
+        return static_cast<std::int64_t>(~std::uint64_t{0} >> (bits_of_an_int - count));
     }
 
     ir::NodeId inverted(ir::NodeId bits) {
@@ -443,8 +446,8 @@ class BitCounting {
                           std::int64_t word) {
         std::vector<std::uint64_t> words(row_count());
         for_each_place(nest, [&](ir::Evaluator::Frame& frame, std::size_t row, std::int64_t place) {
-            const std::int64_t bit = place - word * bits_in_an_int;
-            if (bit < 0 || bit >= bits_in_an_int) return;
+            const std::int64_t bit = place - word * bits_of_an_int;
+            if (bit < 0 || bit >= bits_of_an_int) return;
             if (evaluator_.value<bool>(condition, frame) == value)
                 words[row] |= std::uint64_t{1} << bit;
         });

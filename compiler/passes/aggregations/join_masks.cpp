@@ -5,6 +5,7 @@
 #include "ir/nest.hpp"
 #include "ir/reduction_nest.hpp"
 #include "ir/rewrite.hpp"
+#include "passes/aggregations/row_words.hpp"
 #include "passes/analyses/constant_values.hpp"
 #include "passes/analyses/few_true.hpp"
 
@@ -23,8 +24,6 @@ namespace {
 
 // Initially, at most one of so many is true.
 constexpr std::int64_t least_per_true = 8;
-// The elements of a row are the bits of an int.
-constexpr std::int64_t most_elements = 64;
 // More rows are a loop.
 constexpr std::int64_t most_unrolled = 4;
 // The compiler evaluates the relation so often.
@@ -130,7 +129,7 @@ class Joining {
             !ir::ends_with(program_, load->indices, {nest.variables, nullptr}))
             return false;
         const std::size_t leading = load->indices.size() - nest.variables.size();
-        return program_[load->buffer].row_size(leading) <= most_elements &&
+        return program_[load->buffer].row_size(leading) <= bits_of_an_int &&
                std::all_of(load->indices.begin(),
                            load->indices.begin() + static_cast<std::ptrdiff_t>(leading),
                            [&](ir::NodeId index) {
@@ -181,7 +180,7 @@ class Joining {
     // The constants, and the choices, say which sources are related to which elements.
     bool are_related(const Image& image) const {
         const std::int64_t elements = ir::combinations(program_, image.elements);
-        return elements > 1 && elements <= most_elements &&
+        return elements > 1 && elements <= bits_of_an_int &&
                std::ranges::all_of(image.relation,
                                    [&](ir::NodeId factor) { return is_decided(factor, image); });
     }
@@ -204,7 +203,7 @@ class Joining {
         const std::int64_t sources = ir::combinations(program_, image.sources);
         const std::int64_t elements = ir::combinations(program_, image.elements);
         return rows > 1 && rows <= most_unrolled &&
-               rows * std::max(sources, elements) <= most_elements &&
+               rows * std::max(sources, elements) <= bits_of_an_int &&
                row_indices(image).size() == image.rows.size() &&
                ir::begins_with(program_, image.source.indices, {image.rows, nullptr});
     }
@@ -303,7 +302,7 @@ class Joining {
         ir::NodeId joined = builder_.constant(std::int64_t{0});
         for (std::int64_t row = 0; row < ir::combinations(program_, image.rows); ++row) {
             std::map<ir::NodeId, ir::NodeId> known = ir::combination(builder_, image.rows, row);
-            const std::uint64_t ones = ~std::uint64_t{0} >> (most_elements - size);
+            const std::uint64_t ones = ~std::uint64_t{0} >> (bits_of_an_int - size);
             const ir::NodeId own = builder_.apply(
                 Operator::BitAnd,
                 {all, builder_.constant(static_cast<std::int64_t>(ones << row * size))});

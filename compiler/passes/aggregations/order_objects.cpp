@@ -5,6 +5,7 @@
 #include "ir/rewrite.hpp"
 #include "passes/analyses/equivalence.hpp"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <map>
@@ -26,6 +27,9 @@ class Ordering {
     }
 
   private:
+    // For each variable of a nest, the one behind whose object it begins.
+    using Predecessors = std::vector<std::optional<std::size_t>>;
+
     ir::NodeId rewritten(ir::NodeId id) {
         return ir::replace_in(builder_, id, known_, [&](ir::NodeId each) { return ordered(each); });
     }
@@ -35,22 +39,24 @@ class Ordering {
         if (!nest || (nest->op != Reduction::ForAll && nest->op != Reduction::Exists) ||
             !ir::is_droppable(builder_.properties(nest->body)))
             return std::nullopt;
-        const std::vector<ir::VariableId>& variables = nest->variables;
-        std::vector<std::optional<std::size_t>> before(variables.size());
-        ir::NodeId body = nest->body;
-        bool has_order = false;
-        for (std::size_t j = 1; j < variables.size(); ++j) {
-            before[j] = last_exchanged(*nest, j);
-            has_order |= before[j].has_value();
+        Predecessors before(nest->variables.size());
+        for (std::size_t j = 1; j < before.size(); ++j) before[j] = last_exchanged(*nest, j);
+        if (std::ranges::none_of(before, [](const auto& i) { return i.has_value(); }))
+            return std::nullopt;
+        ++report_["quantifiers over ordered objects"];
+        return in_order(*nest, before);
+    }
+
+    ir::NodeId in_order(const ir::ReductionNest& nest, const Predecessors& before) {
+        const std::vector<ir::VariableId>& variables = nest.variables;
+        ir::NodeId body = nest.body;
+        for (std::size_t j = 0; j < variables.size(); ++j)
             for (auto i = before[j]; i; i = before[*i])
                 body = where_different(body, variables[*i], variables[j]);
-        }
-        if (!has_order) return std::nullopt;
-        ++report_["quantifiers over ordered objects"];
         body = rewritten(body);
         for (std::size_t j = variables.size(); j-- > 0;)
             body = builder_.reduce(
-                nest->op, variables[j], body,
+                nest.op, variables[j], body,
                 before[j] ? std::optional(behind(variables[*before[j]])) : std::nullopt);
         return body;
     }

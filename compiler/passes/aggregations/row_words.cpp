@@ -11,6 +11,17 @@
 
 namespace rddlc::passes {
 
+std::optional<std::vector<ir::NodeId>> uniform_row_of(const ir::Builder& builder,
+                                                      const ir::Load& element) {
+    if (element.indices.empty() ||
+        builder.program()[element.buffer].storage == ir::Storage::Constant)
+        return std::nullopt;
+    std::vector<ir::NodeId> row(element.indices.begin(), element.indices.end() - 1);
+    const bool is_one_row = std::ranges::all_of(
+        row, [&](ir::NodeId index) { return builder.properties(index).uniform; });
+    return is_one_row ? std::optional(std::move(row)) : std::nullopt;
+}
+
 RowWords::RowWords(ir::Builder& builder, ir::VariableId object, WordOfOther word_of_other)
     : builder_(builder), object_(object), word_of_other_(std::move(word_of_other)) {}
 
@@ -36,16 +47,14 @@ std::optional<ir::NodeId> RowWords::known_word(ir::NodeId id) {
     return builder_.constant(static_cast<std::int64_t>(word));
 }
 
-// The elements of a row that is the same one in all environments, in their order.
+// The elements of a row, in their order.
 std::optional<ir::NodeId> RowWords::bits_of(const ir::Load& load) {
-    const std::vector<ir::NodeId> row(load.indices.begin(), load.indices.end() - 1);
-    const ir::Buffer& table = builder_.program()[load.buffer];
-    const bool is_row =
-        table.storage != ir::Storage::Constant && load.indices.back() == builder_.index(object_) &&
-        table.shape.back() == size() && std::ranges::all_of(row, [&](ir::NodeId index) {
-            return builder_.properties(index).uniform && !depends_on_object(index);
-        });
-    return is_row ? std::optional(builder_.bits(load.buffer, 0, row)) : std::nullopt;
+    const auto row = uniform_row_of(builder_, load);
+    const bool is_of_objects =
+        row && load.indices.back() == builder_.index(object_) &&
+        builder_.program()[load.buffer].shape.back() == size() &&
+        std::ranges::none_of(*row, [&](ir::NodeId index) { return depends_on_object(index); });
+    return is_of_objects ? std::optional(builder_.bits(load.buffer, 0, *row)) : std::nullopt;
 }
 
 std::optional<ir::NodeId> RowWords::word_of(const ir::Select& select) {

@@ -7,10 +7,16 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <vector>
 
 namespace rddlc::passes {
 
 inline constexpr std::int64_t bits_of_an_int = 64;
+
+// The leading indices of an element, if the row that they choose is the same one in all
+// environments and no constant, so that ir::Bits may read it.
+std::optional<std::vector<ir::NodeId>> uniform_row_of(const ir::Builder& builder,
+                                                      const ir::Load& element);
 
 class RowWords {
   public:

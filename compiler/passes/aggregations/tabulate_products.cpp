@@ -2,6 +2,7 @@
 
 #include "ir/analysis.hpp"
 #include "ir/rewrite.hpp"
+#include "passes/aggregations/row_words.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -20,12 +21,11 @@ namespace {
 constexpr std::size_t least_factors = 8;
 // Registers hold tables of so many bools (rddl/lanes/simd_moves.hpp).
 constexpr std::int64_t bools_of_table = 5;
-constexpr std::int64_t longest_row = 64;  // the bits of an int
 
 // A factor that element `element` of a row of bools decides.
 struct ChosenFactor {
     ir::BufferId buffer;
-    std::vector<ir::NodeId> row;  // the leading indices, the same in all environments
+    std::vector<ir::NodeId> row;  // the leading indices
     std::int64_t element;
     double if_true, if_false;
 };
@@ -81,7 +81,7 @@ class ProductsOfBools {
 
     bool collect_factors(const ir::Reduce& reduce, std::vector<ChosenFactor>& factors) {
         const std::int64_t size = program_[reduce.variable].size;
-        if (size > longest_row) return false;
+        if (size > bits_of_an_int) return false;
         for (std::int64_t i = 0; i < size; ++i) {
             std::map<ir::NodeId, ir::NodeId> known =
                 ir::combination(builder_, {&reduce.variable, 1}, i);
@@ -108,16 +108,11 @@ class ProductsOfBools {
         if (apply && apply->op == Operator::Not)
             return factor_of(apply->operands.front(), if_false, if_true);
         const auto* load = std::get_if<ir::Load>(&node.form);
-        if (!load || load->indices.empty()) return std::nullopt;
-        const ir::Buffer& buffer = program_[load->buffer];
+        const auto row = load ? uniform_row_of(builder_, *load) : std::nullopt;
+        if (!row || program_[load->buffer].shape.back() > bits_of_an_int) return std::nullopt;
         const auto element = ir::constant<std::int64_t>(program_, load->indices.back());
-        const std::vector<ir::NodeId> row(load->indices.begin(), load->indices.end() - 1);
-        const bool is_one_row = std::ranges::all_of(
-            row, [&](ir::NodeId index) { return builder_.properties(index).uniform; });
-        if (!element || !is_one_row || buffer.storage == ir::Storage::Constant ||
-            buffer.shape.back() > longest_row)
-            return std::nullopt;
-        return ChosenFactor{load->buffer, row, *element, if_true, if_false};
+        if (!element) return std::nullopt;
+        return ChosenFactor{load->buffer, *row, *element, if_true, if_false};
     }
 
     // In one row.

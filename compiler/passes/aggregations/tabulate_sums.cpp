@@ -14,6 +14,7 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <variant>
 #include <vector>
 
 namespace rddlc::passes {
@@ -52,14 +53,8 @@ class SumTabulation {
     }
 
     std::optional<ir::NodeId> looked_up(ir::NodeId id) {
+        if (!is_sum_of_few(id)) return std::nullopt;
         const ir::Reduce sum = std::get<ir::Reduce>(program_[id].form);
-        const ir::Properties properties = builder_.properties(id);
-        const std::int64_t terms = program_[sum.variable].size;
-        const bool may_be = sum.op == Reduction::Sum && !sum.bounds &&
-                            program_[id].type == ir::Scalar::Real && terms >= least_terms &&
-                            terms <= most_terms && properties.free_variables.empty() &&
-                            ir::is_droppable(properties);
-        if (!may_be) return std::nullopt;
         const auto condition = only_bool(sum.body);
         if (!condition ||
             !ir::depends_on_none_but(builder_.properties(*condition), {&sum.variable, 1}) ||
@@ -68,10 +63,18 @@ class SumTabulation {
         const auto if_true = values_where(sum, *condition, true),
                    if_false = values_where(sum, *condition, false);
         if (!if_true || !if_false) return std::nullopt;
-        const ir::NodeId word = word_of(*condition, sum.variable);
-        const ir::NodeId sum_of_all = sum_by(word, *if_true, *if_false);
         ++report_["sums of constants that bools choose looked up"];
-        return sum_of_all;
+        return sum_by(word_of(*condition, sum.variable), *if_true, *if_false);
+    }
+
+    // It neither draws nor faults, and is of reals.
+    bool is_sum_of_few(ir::NodeId id) const {
+        const auto& sum = std::get<ir::Reduce>(program_[id].form);
+        const ir::Properties& properties = builder_.properties(id);
+        const std::int64_t terms = program_[sum.variable].size;
+        return sum.op == Reduction::Sum && !sum.bounds && program_[id].type == ir::Scalar::Real &&
+               terms >= least_terms && terms <= most_terms && properties.free_variables.empty() &&
+               ir::is_droppable(properties);
     }
 
     // ------------------------------------------------------------------------------- terms
@@ -116,7 +119,7 @@ class SumTabulation {
             builder_.tables().list(name, ir::Scalar::Real, values, program_.reward.span);
         return builder_.load(table, {place});
     }
-    // `count` bits of a word of `all`.
+    // So many bits of a word of `all` bits.
     ir::NodeId bits_of(ir::NodeId word, std::int64_t first, std::int64_t count, std::int64_t all) {
         if (first > 0)
             word = builder_.apply(Operator::ShiftRight, {word, builder_.constant(first)});

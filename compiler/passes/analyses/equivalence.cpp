@@ -4,9 +4,9 @@
 #include "ir/rewrite.hpp"
 
 #include <algorithm>
-#include <cstddef>
 #include <map>
 #include <utility>
+#include <variant>
 #include <vector>
 
 namespace rddlc::passes {
@@ -46,7 +46,7 @@ class Equivalence {
     }
 
   private:
-    // Equal, with operands that are equivalent.
+    // They are equal except for operands, which are equivalent.
     bool have_equal_forms(ir::NodeId a, ir::NodeId b) {
         const std::vector<ir::NodeId> ours = ir::operands_of(program_[a]),
                                       theirs = ir::operands_of(program_[b]);
@@ -93,7 +93,8 @@ class Equivalence {
                holds(first->operands.back(), second->operands.front());
     }
 
-    // Conditions in any order. All equalities of a conjunction say which values are equal.
+    // Conditions may have any order. The equalities of a conjunction, or the inequalities of a
+    // disjunction, say together which values are compared.
     bool have_equal_parts(Operator op, ir::NodeId a, ir::NodeId b) {
         Classes ours, theirs;
         const std::vector<ir::NodeId> first = other_parts(op, a, ours);
@@ -107,6 +108,7 @@ class Equivalence {
             return true;
         });
     }
+    // The parts that are no such comparison. Those that are join the classes.
     std::vector<ir::NodeId> other_parts(Operator op, ir::NodeId id, Classes& classes) const {
         std::vector<ir::NodeId> others;
         const Operator equality = op == Operator::And ? Operator::Equal : Operator::NotEqual;

@@ -17,9 +17,10 @@
 namespace rddlc::passes {
 namespace {
 
-// Operations of all loops that skip for the same tables of the action: what takes fewer is not
-// worth jumps that may be mispredicted.
-constexpr double worth_a_test = 180;
+// Operations (Properties::cost) of all loops that the same tables of the action skip. The processor
+// does not foresee whether an action chooses something, and a wrong guess takes about as long as so
+// many operations. Loops that do fewer are not worth the jump.
+constexpr double cost_of_jump = 180;
 
 class Keeping {
   public:
@@ -27,11 +28,11 @@ class Keeping {
         : program_(std::move(program)), report_(report), builder_(program_) {}
 
     ir::Program run() && {
-        for (ir::Definition& definition : program_.step) find(definition);
+        for (ir::Definition& definition : program_.step) look_at(definition);
         for (const auto& [choices, loops] : found_) {
             double cost = 0;
             for (const Found& loop : loops) cost += loop.cost;
-            if (cost < worth_a_test) continue;
+            if (cost < cost_of_jump) continue;
             for (const Found& loop : loops)
                 loop.definition->unchosen =
                     ir::Unchosen{{choices.begin(), choices.end()}, loop.kept};
@@ -50,7 +51,7 @@ class Keeping {
         double cost;
     };
 
-    void find(ir::Definition& definition) {
+    void look_at(ir::Definition& definition) {
         values_.clear();
         const ir::Loop* const loop = loop_after_lets(definition.body);
         if (definition.unchosen || !loop || loop->chosen) return;
@@ -59,20 +60,24 @@ class Keeping {
         if (!store || store->target != definition.target ||
             !ir::are_variables_of(program_, store->indices, nest))
             return;
-        Choices choices = tables_of_action(store->value);
-        const auto kept = kept_without(choices, store->value, nest);
-        if (choices.empty() || !kept || program_[*kept].shape != program_[store->target].shape)
-            return;
-        // Without those that decide nothing where the others choose nothing.
+        const Choices all = tables_of_action(store->value);
+        const auto kept = kept_without(all, store->value, nest);
+        if (all.empty() || !kept || program_[*kept].shape != program_[store->target].shape) return;
+        found_[needed(all, store->value, nest)].push_back(
+            {&definition, *kept, cost_of(*loop, nest, store->value)});
+    }
+
+    // Leaves out tables that decide nothing where the others choose nothing.
+    Choices needed(Choices choices, ir::NodeId value, const ir::Nest& nest) {
         for (const ir::BufferId choice : Choices(choices)) {
             Choices others = choices;
             others.erase(choice);
-            if (kept_without(others, store->value, nest)) choices = std::move(others);
+            if (kept_without(others, value, nest)) choices = std::move(others);
         }
-        found_[choices].push_back({&definition, *kept, cost_of(*loop, nest, store->value)});
+        return choices;
     }
 
-    // As one environment runs the loop (ir/cost_model.hpp).
+    // The operations of the loop as one environment runs it (ir/cost_model.hpp).
     double cost_of(const ir::Loop& loop, const ir::Nest& nest, ir::NodeId value) {
         std::map<ir::NodeId, ir::NodeId> known;
         const ir::NodeId whole = replace_reads(value, known, [](ir::BufferId) { return false; });
@@ -110,7 +115,8 @@ class Keeping {
         });
         return tables;
     }
-    // The table of the state that is left of the value with false for all bools of the choices.
+    // The table of the state whose element is left of the value with false for all bools of the
+    // choices.
     std::optional<ir::BufferId> kept_without(const Choices& choices, ir::NodeId value,
                                              const ir::Nest& nest) {
         std::map<ir::NodeId, ir::NodeId> known;
@@ -121,7 +127,8 @@ class Keeping {
                              ir::are_variables_of(program_, load->indices, nest);
         return is_kept ? std::optional(load->buffer) : std::nullopt;
     }
-    // The value of the Lets, with false where it reads bools of the action from such tables.
+    // The value without the Lets' names, and with false for bools of those tables of the action for
+    // which is_false holds.
     template <class IsFalse>
     ir::NodeId replace_reads(ir::NodeId value, std::map<ir::NodeId, ir::NodeId>& known,
                              const IsFalse& is_false) {

@@ -93,9 +93,7 @@ TEST(CountBits, LeavesTablesSoSmallThatTheirBitsCostMoreThanTheySave) {
     EXPECT_EQ(counted_in_bits("sum_{?o : obj} [p(?o)]"), "sum[o in obj](int(state.p[o]))");
 }
 
-// These terms are not the same element of all tables, not known before or not of bools, or counted
-// twice.
-// They are tested once, and their bits would be made when all of them are there.
+// Each bool is tested once, and bits would be made when all bools are there.
 TEST(CountBits, LeavesShortRowsThatAStepMakes) {
     EXPECT_EQ(counted_in_bits("max_{?v : obj} [exists_{?o : obj} [s(?v, ?o)]]"),
               "max[v in obj](int(bit_and(bits(state.s, 0), s-bits[v]) != 0))");
@@ -105,6 +103,8 @@ TEST(CountBits, LeavesShortRowsThatAStepMakes) {
               "int(bits(scratch.made, 0) != 0)");
 }
 
+// These terms are not the same element of all tables, not known before or not of bools, or counted
+// twice.
 TEST(CountBits, LeavesOtherAggregations) {
     for (const char* cpf :
          {"sum_{?o : obj, ?u : obj} [p(?o) ^ s(?o, ?u)]",
