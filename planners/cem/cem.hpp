@@ -128,11 +128,11 @@ class Cem : public Planner {
     Aligned<double> values_;
     std::vector<double> errors_;
     double noop_value_ = 0;
-    std::vector<std::size_t> order_;  // the best first, then the others
-    std::size_t ordered_ = 0;         // so many are the best
-    double limit_ = 0;                // below which the others are
-    std::vector<std::uint8_t> is_ordered_;
-    std::vector<std::byte> firsts_;  // action records of each plan's first step
+    std::vector<std::size_t> order_;  // the best first; add_others() appends the others
+    std::size_t ordered_ = 0;         // so many of these are in order
+    double limit_ = 0;                // the best have greater values, unless those are too few
+    std::vector<std::uint8_t> is_ordered_;  // by plan
+    std::vector<std::byte> firsts_;         // action records of each plan's first step
     // The lanes.
     std::vector<std::uint64_t> streams_;
     std::vector<float> row_;  // of one action

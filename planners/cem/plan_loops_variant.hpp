@@ -24,7 +24,7 @@ inline void for_each_period(std::size_t period, std::size_t count, Body body) {
         body(first, count - first < period ? count - first : period);
 }
 
-// Numbers [first, first + count), whose scales begin at `at`.
+// Draws so many numbers from the first one on, whose scales begin at `at`.
 inline void draw_part(const NumberNoise& noise, const NumberScales& scales, std::size_t at,
                       std::size_t first, std::size_t count, float* __restrict values,
                       float* __restrict numbers, float* __restrict mirrored) {
@@ -123,7 +123,7 @@ inline double rounded_whole(double x) {
 // The values of a period, in the precision of Number until they are finished. In place of softplus,
 // values with one bound are 0, x, and between them the parabola that meets both with their slopes.
 // It differs by 0.076 at most, and unlike softplus it reaches the bound. What is added to the base
-// is never of the other sign than the scale, since a product is rounded as any smaller one.
+// never has the other sign than the scale, since rounding keeps the order of products.
 template <class Number, bool any_rounds, bool any_limits, class Finish>
 inline void finish_values(const RealScales& reals, const RealScales::Values<Number>& values_of,
                           const float* numbers, std::size_t count, double* __restrict values,
@@ -164,7 +164,8 @@ inline void values_of_period(const RealScales& reals, const float* numbers, std:
         });
 }
 
-// The values of whole periods in floats, without roundings; in blocks as those of draw_periods().
+// The values of whole periods in floats, without roundings: the formula of finish_values(), in
+// blocks as those of draw_periods().
 inline void short_values_of_periods(const RealScales& reals, const float* __restrict numbers,
                                     std::size_t count, double* __restrict values) {
     const RealScales::Values<float>& values_of = reals.short_values;

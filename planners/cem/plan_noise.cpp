@@ -49,7 +49,7 @@ const NoiseTables& noise_tables() {
 }
 
 // Calls body(first, count, place) for runs of a row: a run reads `count` numbers from `place` on.
-// It is of whole periods, unless one is longer.
+// It holds whole periods, unless a period is longer than any run.
 template <class Body>
 void for_each_run(RandomStream& stream, std::size_t row, std::size_t period, Body body) {
     constexpr std::size_t places = (NoiseTables::size - NoiseTables::run) / NoiseTables::line;

@@ -21,12 +21,12 @@ class PlanNoise {
 
     // The plans begin again: the next step depends on nothing before it.
     void restart(RandomStream& stream);
-    // Each real of each plan, one plan after the other, has noise with mean 0 and deviation 1,
-    // between -3 and 3: an autoregressive process of sums of three uniform numbers. A search needs
-    // no tails. Plans in the second half of a population are mirror images of those in the first
-    // half: what is drawn once serves for two numbers. Writes those of a step, for an even number
-    // of plans.
+    // Writes the numbers of a step, for an even number of plans: the reals of one plan after the
+    // other. Their noise has mean 0 and deviation 1, between -3 and 3: an autoregressive process of
+    // sums of three uniform numbers, since a search needs no tails. Plans in the second half of a
+    // population are mirror images of those in the first half, so that one draw serves two numbers.
     void next_numbers(RandomStream& stream, const NumberScales& scales, float* numbers);
+    // Draws the ranks of a step.
     void next_ranks(RandomStream& stream);
 
     // How wide the noise of a real is in each pair of plans where numbers have no bounds, so that

@@ -24,14 +24,14 @@ class Population {
   public:
     Population(std::size_t plans, int reals, int indices)
         : plans_(plans),
-          row_((plans + 1) / 2 * 2 * static_cast<std::size_t>(reals)),
+          row_size_((plans + 1) / 2 * 2 * static_cast<std::size_t>(reals)),
           reals_(static_cast<std::size_t>(reals)),
           indices_(static_cast<std::size_t>(indices)) {}
 
     // The plans get so many steps. Their values are any until they are written.
     void set_steps(std::int64_t steps) {
         steps_ = static_cast<std::size_t>(steps);
-        number_values_.resize(steps_ * row_ + slack);
+        number_values_.resize(steps_ * row_size_ + slack);
         index_values_.resize(steps_ * indices_ * plans_);
     }
     std::size_t plans() const { return plans_; }
@@ -39,9 +39,12 @@ class Population {
 
     std::size_t reals() const { return reals_; }
 
-    // All numbers of a step, one plan after the other; with room for an even number of plans.
-    float* numbers(std::size_t step) { return number_values_.data() + step * row_; }
-    const float* numbers(std::size_t step) const { return number_values_.data() + step * row_; }
+    // All numbers of a step, one plan after the other. There is room for an even number of plans,
+    // since noise is drawn for pairs.
+    float* numbers(std::size_t step) { return number_values_.data() + step * row_size_; }
+    const float* numbers(std::size_t step) const {
+        return number_values_.data() + step * row_size_;
+    }
     // An index of a step, of all plans.
     std::int32_t* indices(std::size_t step, std::size_t index) {
         return index_values_.data() + (step * indices_ + index) * plans_;
@@ -70,7 +73,7 @@ class Population {
         for (std::size_t r = 0; r < reals_; ++r) to[r] = from[r];
     }
 
-    std::size_t plans_, row_, reals_, indices_, steps_ = 0;
+    std::size_t plans_, row_size_, reals_, indices_, steps_ = 0;
     Aligned<float> number_values_;
     std::vector<std::int32_t> index_values_;
 };

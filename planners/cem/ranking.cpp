@@ -43,8 +43,8 @@ double from_ordered(std::uint64_t place) {
 }
 
 // A limit above which there are at least `wanted` values and, unless many are equal, few more.
-// It is -inf where fewer values than that are above -inf. Goes away from the guess by longer and
-// longer steps until the limit lies between, and bisects then.
+// It is -inf where fewer values than that are above -inf. The search leaves the guess by longer and
+// longer steps until the limit lies between two of them, and bisects then.
 double limit_of_best(const PlanLoops& loops, std::span<const double> values, std::size_t wanted,
                      double guess) {
     constexpr std::size_t few = 8;
@@ -82,7 +82,7 @@ void Cem::sort_best() {
     }
     // Populations that follow each other are about as good.
     limit_ = limit_of_best(loops_, values_, wanted, std::isfinite(limit_) ? limit_ : 0);
-    // Without branches, and with copies of members, which need not be read again.
+    // The loop has no branches, and copies of members, which it need not read again.
     const double limit = limit_;
     const double* const values = values_.data();
     std::size_t* const order = order_.data();
@@ -91,7 +91,7 @@ void Cem::sort_best() {
         order[best] = c;
         best += values[c] > limit;
     }
-    // All others are equal where these are too few.
+    // Where too few are above the limit, all others are -inf, and any of them will do.
     for (std::size_t c = 0; best < wanted; ++c)
         if (!(values[c] > limit)) order[best++] = c;
     ordered_ = best;
@@ -121,7 +121,7 @@ std::size_t Cem::elites() const {
     return static_cast<std::size_t>(std::ceil(options_.elites * static_cast<double>(population_)));
 }
 
-// Plans that are not among the best follow, in the order of the population.
+// Plans that are not among the best follow them, in the order of the population.
 void Cem::add_others() {
     std::ranges::fill(is_ordered_, std::uint8_t{0});
     for (std::size_t k = 0; k < ordered_; ++k) is_ordered_[order_[k]] = 1;

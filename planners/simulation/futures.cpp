@@ -107,17 +107,17 @@ void Futures::take_step() {
         }
         if (ends == RDDL_RUNNING && bad == 0) continue;
         if (bad == 0 && !(ends & RDDL_FAULTED))
-            end_well(first, last);
+            end_good(first, last);
         else
-            end_some(first, last);
+            end_any(first, last);
     }
     made_ += 1;
     if (made_ >= next_limit_) end_by_limits();
     discount_ *= simulator_.problem->discount;
 }
 
-// Ends each of these lanes that has ended in the batch, without branches.
-void Futures::end_well(std::size_t first, std::size_t last) {
+// Ends each of these lanes that has ended in the batch. No reward is bad, so there is no branch.
+void Futures::end_good(std::size_t first, std::size_t last) {
     std::int64_t ended = 0;
     for (std::size_t k = first; k < last; ++k) {
         const bool ends = running_[k] && causes_[k] != RDDL_RUNNING;
@@ -128,8 +128,8 @@ void Futures::end_well(std::size_t first, std::size_t last) {
     running_count_ -= ended;
 }
 
-// The same where a reward may be bad.
-void Futures::end_some(std::size_t first, std::size_t last) {
+// The same where rewards may be bad, which also ends lanes.
+void Futures::end_any(std::size_t first, std::size_t last) {
     for (std::size_t k = first; k < last; ++k) {
         const bool is_bad = (causes_[k] & RDDL_FAULTED) || !std::isfinite(rewards_[k]);
         if (!running_[k] || (causes_[k] == RDDL_RUNNING && !is_bad)) continue;

@@ -72,8 +72,8 @@ class Futures {
     rddl_transition outputs();
     void look_at_causes(bool are_alike);
     void take_step();
-    void end_well(std::size_t first, std::size_t last);
-    void end_some(std::size_t first, std::size_t last);
+    void end_good(std::size_t first, std::size_t last);
+    void end_any(std::size_t first, std::size_t last);
     void end_by_limits();
 
     const rddl_simulator& simulator_;

@@ -93,7 +93,7 @@ RealHead real_head(const rddl_simulator& simulator, const ActionRecords& records
         head.range = RealHead::Range::BelowUpper;
         head.scale = size(head.upper, -1);
     } else {
-        // Floats near the default have to differ from it.
+        // Floats are coarse near a default that is far from 0, and a step has to reach the next.
         constexpr double least_part = 0x1p-10;
         head.scale = std::max(std::min(size(head.centre, 1), size(head.centre, -1)),
                               least_part * std::abs(head.centre));

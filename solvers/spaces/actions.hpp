@@ -33,9 +33,9 @@ struct RealHead {
     bool rounds = false;          // an int
     double lower = 0, upper = 0;  // of Bounded: the middle for u = 0, the bounds for -1 and 1
     // Squashed: the same of tanh(u), which never leaves the bounds.
-    double scale = 1;   // of the others: lower + scale * softplus(u), or
-    double centre = 0;  // centre + scale * u; the default
-    int choice = -1;    // with sub-actions: the choice that sets it
+    // The others: lower + scale * softplus(u), or centre + scale * u, where centre is the default.
+    double scale = 1, centre = 0;
+    int choice = -1;  // with sub-actions: the choice that sets it
 
     // Values are limited to the bounds; in a direction without one to 1e9, or to twice the other
     // bound or the default where that is more.
