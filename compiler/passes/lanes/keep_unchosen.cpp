@@ -83,11 +83,12 @@ class Keeping {
         return std::ceil(objects / at_once) * builder_.properties(whole).cost;
     }
 
-    // Remembers the values of the Lets.
+    // Remembers the values of the Lets. A fault of one must not disappear with the loop.
     const ir::Statement* after_lets(const ir::Block& block) {
         for (const ir::Statement& statement : block) {
             const auto* let = std::get_if<ir::Let>(&statement.form);
             if (!let) return &statement == &block.back() ? &statement : nullptr;
+            if (builder_.properties(let->value).may_fault) return nullptr;
             values_[let->local] = let->value;
         }
         return nullptr;
@@ -121,7 +122,8 @@ class Keeping {
                              ir::are_variables_of(program_, load->indices, nest);
         return is_kept ? std::optional(load->buffer) : std::nullopt;
     }
-    // The value of the Lets, with false where it reads bools of the action from such tables.
+    // The value of the Lets, with false where it reads bools of the action from such tables. An
+    // object that is drawn by invalid weights faults whatever the action chooses.
     template <class IsFalse>
     ir::NodeId replace_reads(ir::NodeId value, std::map<ir::NodeId, ir::NodeId>& known,
                              const IsFalse& is_false) {
@@ -131,7 +133,8 @@ class Keeping {
                 if (const auto* local = std::get_if<ir::Local>(&node.form))
                     return replace_reads(values_.at(local->local), known, is_false);
                 const auto table = ir::buffer_read_by(node);
-                if (!table || !ir::is_action_bools(program_[*table]) || !is_false(*table))
+                if (!table || !ir::is_action_bools(program_[*table]) || !is_false(*table) ||
+                    builder_.properties(id).may_fault)
                     return std::nullopt;
                 if (node.type == ir::Scalar::Bool) return builder_.constant(false);
                 return builder_.constant(std::int64_t{0});
