@@ -13,7 +13,7 @@
 //     for a in room
 //         scratch.reward-bools[a] = exists[g in guard](action.watch[a, g])
 //
-// The table has the sums of the first eight terms, added in their order. Each further term is
+// The table has the sums of the first 8 terms, added in their order. Each further term is
 // looked up and added by itself: + reward-terms[bit_and(shift_right(..., 8), 1)].
 #pragma once
 
