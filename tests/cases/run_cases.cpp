@@ -193,9 +193,10 @@ class LoadedSimulator {
     const rddl_simulator* simulator_ = nullptr;
 };
 
-// The compiled simulator makes the same trace, unless it computes with floats.
+// The compiled simulator makes the same trace, and the same steps in a batch, unless it computes
+// with floats.
 void expect_compiled_trace(const Case& expected, const Compilation& compilation,
-                           const std::string& trace) {
+                           const rddl_simulator& interpreted, const std::string& trace) {
     // A name of its own each: the loader knows what it has loaded by name.
     const std::string case_name = expected.folder.filename().string();
     const std::string name =
@@ -208,6 +209,7 @@ void expect_compiled_trace(const Case& expected, const Compilation& compilation,
     const LoadedSimulator compiled(name, options_for(expected));
     if (compiled.get() && expected.real == RealType::Double) {
         EXPECT_EQ(unified_diff(trace, trace_of(*compiled.get())), "") << "compiled differs";
+        EXPECT_EQ(difference_in_batches(interpreted, *compiled.get()), "");
     }
     fs::remove(name + ".cpp");
     fs::remove(name + ".so");
@@ -225,7 +227,7 @@ void expect_trace(const Case& expected, const Compilation& compilation) {
     const std::string trace = trace_of(*interpreted);
     if (expected.expects("trace.exp")) expect_golden(expected.folder / "trace.exp", trace, "cases");
 #ifdef RDDL_BATCHES
-    expect_compiled_trace(expected, compilation, trace);
+    expect_compiled_trace(expected, compilation, *interpreted, trace);
 #endif
 }
 

@@ -1,5 +1,6 @@
 #include "trace.hpp"
 
+#include "../conformance/stepping.hpp"
 #include "formats/records_json.hpp"
 
 #include <fmt/format.h>
@@ -7,6 +8,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstring>
+#include <limits>
 #include <vector>
 
 namespace rddlc::testing {
@@ -68,7 +70,75 @@ std::string ending(std::uint8_t causes) {
     return text;
 }
 
+// Where many choose nothing: in the first step all, then all but one; and many single tables.
+void forget_choices(const rddl_problem& problem, std::size_t environment, int step,
+                    Record& action) {
+    constexpr std::size_t chooser = 5;
+    const bool forgets_all = step == 0 || (step == 1 && environment != chooser);
+    for (std::int32_t i = 0; i < problem.fluent_count; ++i) {
+        const rddl_fluent& fluent = *rddl_fluent_at(&problem, i);
+        if (fluent.role != RDDL_ACTION || fluent.scalar != RDDL_BOOL) continue;
+        const auto number = static_cast<std::size_t>(i) + environment;
+        if (forgets_all || (step < steps / 2 && number % 3 != 0))
+            std::memset(action.data() + fluent.offset, 0, static_cast<std::size_t>(fluent.count));
+    }
+}
+
+stepping::Bytes actions_at(const rddl_problem& problem, std::size_t environments, int step) {
+    const workbench::RecordLayout layout(problem, RDDL_ACTION);
+    stepping::Bytes actions(environments * layout.size() + 1);
+    for (std::size_t i = 0; i < environments && layout.size() > 0; ++i) {
+        Record action = action_at(problem, layout, step + static_cast<int>(i) * steps);
+        forget_choices(problem, i, step, action);
+        std::memcpy(actions.data() + i * layout.size(), action.data(), action.size());
+    }
+    return actions;
+}
+
+// One nan is like another.
+void make_nans_equal(stepping::Bytes& records, const workbench::RecordLayout& layout) {
+    constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+    const std::size_t count = layout.size() == 0 ? 0 : records.size() / layout.size();
+    for (std::size_t i = 0; i < count; ++i) {
+        for (const workbench::RecordEntry& entry : layout.entries()) {
+            std::uint8_t* const at = records.data() + i * layout.size() + entry.offset;
+            double real = 0;
+            if (entry.fluent->scalar != RDDL_REAL) continue;
+            std::memcpy(&real, at, sizeof real);
+            if (std::isnan(real)) std::memcpy(at, &nan, sizeof nan);
+        }
+    }
+}
+
+void step_batch(stepping::ObservedBatch& batch, const stepping::Bytes& actions) {
+    const rddl_problem& problem = *batch.simulator().problem;
+    batch.step(actions);
+    const workbench::RecordLayout state(problem, RDDL_STATE);
+    const workbench::RecordLayout seen(problem,
+                                       problem.partially_observed ? RDDL_OBSERVATION : RDDL_STATE);
+    make_nans_equal(batch.told.states, state);
+    make_nans_equal(batch.told.observations, seen);
+    make_nans_equal(batch.told.final_observations, seen);
+}
+
 }  // namespace
+
+std::string difference_in_batches(const rddl_simulator& expected, const rddl_simulator& found) {
+    constexpr std::size_t environments = 19;  // a pack and a part of one
+    stepping::ObservedBatch first(expected, environments, 1, 1);
+    stepping::ObservedBatch single(found, environments, 1, 1);
+    stepping::ObservedBatch packs(found, environments, found.lane_count, 1);
+    for (int step = 0; step < steps; ++step) {
+        const stepping::Bytes actions = actions_at(*expected.problem, environments, step);
+        for (stepping::ObservedBatch* const batch : {&first, &single, &packs})
+            step_batch(*batch, actions);
+        for (const stepping::ObservedBatch* const other : {&single, &packs})
+            if (const char* const what = stepping::difference(first.told, other->told))
+                return fmt::format("{} differ in step {} of {}", what, step,
+                                   other == &packs ? "packs" : "single environments");
+    }
+    return "";
+}
 
 std::string trace_of(const rddl_simulator& simulator) {
     const rddl_problem& problem = *simulator.problem;

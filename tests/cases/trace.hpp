@@ -11,4 +11,9 @@ namespace rddlc::testing {
 // observation where there is one, the reward, how it ended. Actions are random but always the same.
 std::string trace_of(const rddl_simulator& simulator);
 
+// The first difference between two simulators of a problem, of which the second one steps single
+// environments and packs; empty without one. In some steps no environment chooses anything, or
+// one alone.
+std::string difference_in_batches(const rddl_simulator& expected, const rddl_simulator& found);
+
 }  // namespace rddlc::testing

@@ -1,7 +1,10 @@
 #include "contracts.hpp"
 
 #include "ir/analysis.hpp"
+#include "ir/builder.hpp"
 #include "ir/interpreter.hpp"
+#include "ir/layout.hpp"
+#include "ir/nest.hpp"
 #include "ir/print.hpp"
 #include "ir/verify.hpp"
 
@@ -55,6 +58,46 @@ void drop_states_out_of_bounds(const ir::Program& program, std::vector<Situation
     });
 }
 
+// The same actions, with false for all bools of some tables.
+std::vector<Situation> with_nothing_chosen(const ir::Program& program, std::vector<Situation> tried,
+                                           const std::vector<ir::BufferId>& choices) {
+    for (const ir::Field& field : ir::record_layout(program, ir::Storage::Action).fields) {
+        if (std::ranges::find(choices, field.buffer) == choices.end()) continue;
+        for (Situation& at : tried)
+            std::fill_n(at.action.begin() + static_cast<std::ptrdiff_t>(field.offset),
+                        program[field.buffer].count(), std::byte{0});
+    }
+    return tried;
+}
+
+// A definition that keeps a table of the state copies it, and does nothing else.
+ir::Program with_copy(ir::Program program, std::size_t number) {
+    ir::Definition& definition = program.step[number];
+    const ir::Nest nest = ir::nest_of(std::get<ir::Loop>(definition.body.back().form));
+    ir::Store store = std::get<ir::Store>(nest.body->back().form);
+    store.value = ir::Builder(program).load(definition.unchosen->kept, store.indices);
+    definition.body = ir::looped({{std::move(store)}}, nest.variables);
+    definition.unchosen.reset();
+    return program;
+}
+
+// Emitted code copies a table where an action chooses nothing, the interpreter computes it
+// (passes/lanes/keep_unchosen.hpp).
+std::optional<std::string> difference_of_copies(const ir::Program& program,
+                                                const std::vector<Situation>& tried,
+                                                std::uint64_t seed) {
+    for (std::size_t i = 0; i < program.step.size(); ++i) {
+        const auto& unchosen = program.step[i].unchosen;
+        if (!unchosen) continue;
+        const std::vector<Situation> still = with_nothing_chosen(program, tried, unchosen->choices);
+        if (auto text = difference(program, story(program, still, seed),
+                                   story(with_copy(program, i), still, seed),
+                                   {.relative = 0, .not_finite = program.assumes_finite}))
+            return "where nothing is chosen: " + *text;
+    }
+    return std::nullopt;
+}
+
 }  // namespace
 
 Tolerance tolerance_of(std::string_view pass) {
@@ -99,6 +142,9 @@ Contracts check_alone(const ir::Program& program, const PassOptions& options, Va
         if (const auto text = difference(program, before, after, tolerance)) {
             result.breaches.push_back({history[i].pass, *text});
         }
+        if (history[i].pass == "keep_unchosen")
+            if (const auto text = difference_of_copies(history[i].program, tried, seed))
+                result.breaches.push_back({history[i].pass, *text});
         before = std::move(after);
     }
     return result;

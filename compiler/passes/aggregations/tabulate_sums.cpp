@@ -3,11 +3,13 @@
 #include "ir/analysis.hpp"
 #include "ir/evaluator.hpp"
 #include "ir/fill_table.hpp"
+#include "ir/fold.hpp"
 #include "ir/rewrite.hpp"
 #include "passes/aggregations/row_words.hpp"
 #include "passes/analyses/constant_values.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <iterator>
 #include <map>
@@ -74,7 +76,7 @@ class SumTabulation {
         const std::int64_t terms = program_[sum.variable].size;
         return sum.op == Reduction::Sum && !sum.bounds && program_[id].type == ir::Scalar::Real &&
                terms >= least_terms && terms <= most_terms && properties.free_variables.empty() &&
-               ir::is_droppable(properties);
+               ir::is_droppable(properties) && !are_rounded_as_floats(sum.body);
     }
 
     // ------------------------------------------------------------------------------- terms
@@ -90,6 +92,22 @@ class SumTabulation {
             only = operand;
         }
         return only ? only_bool(*only) : std::nullopt;
+    }
+
+    // The evaluator knows doubles alone.
+    bool are_rounded_as_floats(ir::NodeId terms) const {
+        return program_.real == RealType::Float &&
+               ir::any_node_of(program_, terms, [&](ir::NodeId id) { return may_round(id); });
+    }
+    bool may_round(ir::NodeId id) const {
+        const ir::Node& node = program_[id];
+        if (node.type != ir::Scalar::Real) return false;
+        if (std::holds_alternative<ir::Reduce>(node.form)) return true;
+        const auto* apply = std::get_if<ir::Apply>(&node.form);
+        return apply && (apply->op != Operator::Multiply ||
+                         std::ranges::none_of(apply->operands, [&](ir::NodeId factor) {
+                             return ir::converted_bool(program_, factor).has_value();
+                         }));
     }
 
     // The term of each object where the bool has this value.
@@ -129,24 +147,23 @@ class SumTabulation {
     }
 
     // The sums of the first terms by the bits of their bools, added in their order.
-    Values sums_of_first(std::int64_t count, const Values& if_true, const Values& if_false) {
-        std::vector<ir::NodeId> sums{builder_.constant(0.0)};
+    Values sums_of_first(std::int64_t count, const Values& if_true, const Values& if_false) const {
+        Values sums{0.0};
         for (std::int64_t i = 0; i < count; ++i) {
-            const auto added = [&](const ir::Value& value) {
-                std::vector<ir::NodeId> all;
-                for (const ir::NodeId sum : sums)
-                    all.push_back(builder_.apply(Operator::Add, {sum, builder_.constant(value)}));
-                return all;
-            };
-            const std::vector<ir::NodeId> with = added(if_true[i]);
-            sums = added(if_false[i]);
+            const Values with = added(sums, if_true[i]);
+            sums = added(sums, if_false[i]);
             sums.insert(sums.end(), with.begin(), with.end());
         }
-        Values values;
-        std::ranges::transform(sums, std::back_inserter(values), [&](ir::NodeId sum) {
-            return std::get<ir::Constant>(program_[sum].form).value;
-        });
-        return values;
+        return sums;
+    }
+    // As steps add: floats are rounded.
+    Values added(Values sums, const ir::Value& term) const {
+        const auto in_a_step = [&](const ir::Value& value) {
+            return ir::as_in_a_step(value, program_.real);
+        };
+        for (ir::Value& sum : sums)
+            sum = in_a_step(*ir::fold(Operator::Add, std::array{sum, in_a_step(term)}));
+        return sums;
     }
 
     // -------------------------------------------------------------------------------- bools

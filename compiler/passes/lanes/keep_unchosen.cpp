@@ -89,11 +89,12 @@ class Keeping {
         return std::ceil(objects / at_once) * builder_.properties(whole).cost;
     }
 
-    // Remembers the values of the Lets.
+    // Remembers the values of the Lets. A fault of one must not disappear with the loop.
     const ir::Statement* after_lets(const ir::Block& block) {
         for (const ir::Statement& statement : block) {
             const auto* let = std::get_if<ir::Let>(&statement.form);
             if (!let) return &statement == &block.back() ? &statement : nullptr;
+            if (builder_.properties(let->value).may_fault) return nullptr;
             values_[let->local] = let->value;
         }
         return nullptr;
@@ -129,7 +130,8 @@ class Keeping {
         return is_kept ? std::optional(load->buffer) : std::nullopt;
     }
     // The value without the Lets' names, and with false for bools of those tables of the action for
-    // which is_false holds.
+    // which is_false holds. An object that is drawn by invalid weights faults whatever the action
+    // chooses, so reads at such an object stay.
     template <class IsFalse>
     ir::NodeId replace_reads(ir::NodeId value, std::map<ir::NodeId, ir::NodeId>& known,
                              const IsFalse& is_false) {
@@ -139,7 +141,8 @@ class Keeping {
                 if (const auto* local = std::get_if<ir::Local>(&node.form))
                     return replace_reads(values_.at(local->local), known, is_false);
                 const auto table = ir::buffer_read_by(node);
-                if (!table || !ir::is_action_bools(program_[*table]) || !is_false(*table))
+                if (!table || !ir::is_action_bools(program_[*table]) || !is_false(*table) ||
+                    builder_.properties(id).may_fault)
                     return std::nullopt;
                 if (node.type == ir::Scalar::Bool) return builder_.constant(false);
                 return builder_.constant(std::int64_t{0});

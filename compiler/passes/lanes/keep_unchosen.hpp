@@ -9,8 +9,9 @@
 //
 // With false for all bools of the action, what is left of the value is the element of the state.
 // Emitted code then skips the loop: for one environment where its action chooses nothing, in packs
-// where no action does. Nothing else changes. Loops that do little are left as they are, and those
-// of which visit_chosen visits the chosen objects alone.
+// where no action does. Nothing else changes. Loops that do little are left as they are, those of
+// which visit_chosen visits the chosen objects alone, and those that may fault where nothing is
+// chosen.
 #pragma once
 
 #include "ir/ir.hpp"

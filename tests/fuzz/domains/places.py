@@ -1,13 +1,13 @@
-"""Places of few things, on roads and by directions: tables of bools of which few are true. Cells that read their neighbours."""
+"""Places of few things, on roads and by directions: tables of bools of which few are true. Cells that read their neighbours. Spots that tools change."""
 
-from domains.draft import ACTION, CONSTANT, STATE, Draft, boolean, of, over
+from domains.draft import ACTION, CONSTANT, STATE, Draft, boolean, of, over, real
 from rddl_problem import Type
 
 FROM, TO = "?s", "?t"
 
 
 def add(draft: Draft) -> None:
-    for part in draft.rng.sample([roads, robots, cells], draft.pick([1, 1, 2])):
+    for part in draft.rng.sample([roads, robots, cells, tools], draft.pick([1, 1, 2])):
         part(draft)
 
 
@@ -112,3 +112,35 @@ def cells(draft: Draft) -> None:
         flips = draft.coin(draft.pick(["0.5", "0.125"]))
         draft.define(state, ("?c",), boolean("(if (%s) then %s else %s)", draft.pick([value(0), draft.at(kinds[0], "?c")]), value(draft.pick([1, 2, 3])), draft.pick([flips, value(2)])))
         draft.earn(over("sum", "?c", cell, draft.at(state, "?c")))
+
+
+def tools(draft: Draft) -> None:
+    """Spots stay as they are, or become what others were, where no tool is used."""
+    spot, rover = spots(draft, [4, 8, 9, 16, 17]), draft.objects("rover")
+    size = draft.size(spot)
+    share = draft.declare("share", STATE, "real", spot, default=str(1 / size))
+    draft.define(share, ("?p",), real(draft.pick(["%s", "(%s * 1.0)", "max[0.0, %s]"]), draft.at(share, "?p")))
+    used = [draft.declare("use", ACTION, "bool", rover, spot, default=draft.pick(["false", "false", "true"])) for _ in range(draft.pick([1, 2]))]
+    kind = draft.pick(["bool", "int", "real", "real"])
+    kept = [draft.declare("kept", STATE, kind, spot) for _ in range(draft.pick([1, 2, 3]))]
+    scope = {"?p": spot, "?r": rover, "?q": spot}
+    for table in kept:
+        other = draft.at(draft.pick(kept), "?q")
+        drawn = f"Discrete_{{?d : {spot}}} [%s]"
+        object_ = of(spot, drawn, draft.at(share, "?d")) if draft.flavour.draws and draft.chance(0.15) else "?p"
+        factors = [draft.at(draft.pick(used), "?r", object_), boolean("(%s ~= %s)", other, draft.at(table, "?p")), draft.some_bool(scope)]
+        if draft.chance(0.3):
+            factors.append(draft.at(draft.pick(used), "?r", "?q"))
+        draft.rng.shuffle(factors)
+        changes = over("exists", f"?r : {rover}, ?q", spot, boolean("(" + " ^ ".join(["%s"] * len(factors)) + ")", *factors))
+        own = draft.at(draft.pick([table, table, draft.pick(kept)]), "?p")
+        if kind == "bool":
+            value = boolean(draft.pick(["(%s | %s)", "(if (%s) then false else %s)", "(~%s ^ %s)", "(%s ~= %s)"]), changes, own)
+        else:
+            forms = {"int": ["7", "(1 - %s)"], "real": ["(-0.0)", "(-%s)", "(%s * 0.5)"]}[kind]
+            form = draft.pick(forms)
+            new = of(kind, form, *[draft.at(draft.pick(kept), "?p")] * form.count("%s"))
+            value = of(kind, "(if (%s) then %s else %s)", changes, new, own)
+        draft.define(table, ("?p",), value)
+        earned = draft.at(table, "?p", prime=draft.chance(0.5))
+        draft.earn(over("sum", "?p", spot, earned if kind != "real" else draft.revealed(earned)))

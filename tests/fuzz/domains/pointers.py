@@ -16,7 +16,7 @@ def add(draft: Draft) -> None:
     grown = real("(%s + (?n == %s) * %s)", draft.at(worth, "?n"), draft.at(head), gain)
     shared = real("(%s - %s)", draft.at(worth, "?n"), draft.at(worth, draft.at(after, "?n")))
     draft.define(worth, ("?n",), draft.bounded(draft.pick([grown, shared])))
-    for part in draft.rng.sample([carriers, sums_at_head, loops, walkers, near_head], draft.pick([1, 2, 3])):
+    for part in draft.rng.sample([carriers, sums_at_head, loops, walkers, watched, near_head], draft.pick([1, 2, 3])):
         part(draft, node, after, head, worth)
     draft.earn(draft.revealed(draft.at(worth, chain(draft, node, after, head))))
 
@@ -98,6 +98,29 @@ def walkers(draft: Draft, node: str, after, head, worth) -> None:
     for variable, type_name in reversed(scope.items()):
         total = over("sum", variable, type_name, total)
     draft.earn(total)
+
+
+def watched(draft: Draft, node: str, after, head, worth) -> None:
+    """A constant for each node on which somebody stands, and another one for the others."""
+    sitter = draft.objects("sitter")
+    sits = draft.declare("sits", STATE, node, sitter)
+    gain = draft.declare("GAIN", CONSTANT, "real", node)
+    draft.define(sits, ("?w",), draft.at(after, draft.at(sits, "?w")))
+    place = draft.at(sits, "?w", prime=draft.chance(0.3))
+    same = boolean("(%s == ?n)", place)
+    if draft.chance(0.5):
+        same = boolean("(%s ^ %s)", same, draft.some_bool({"?w": sitter}))
+    stands = over("exists", "?w", sitter, same)
+    form = draft.pick(["%s", "~%s", "(%s ^ %s)", "(%s ^ ~%s)", "(%s | %s)", "(%s => %s)"])
+    condition = boolean(form, *[stands, draft.some_bool({"?n": node})][: form.count("%s")])
+    constants = [draft.at(gain, "?n"), real(draft.pick(["0.0", "(-0.0)", "-5.3", "0.1", "2.5"]))]
+    draft.rng.shuffle(constants)
+    term = draft.pick([
+        real("(if (%s) then %s else %s)", condition, *constants), real("(%s * %s)", condition, constants[0]),
+        real("(%s + 0.1 * %s)", constants[0], condition),
+    ])  # fmt: skip
+    total = over("sum", "?n", node, term)
+    draft.earn(draft.pick([total, total, draft.revealed(total)]))
 
 
 def near_head(draft: Draft, node: str, after, head, worth) -> None:

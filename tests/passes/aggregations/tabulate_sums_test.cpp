@@ -3,6 +3,7 @@
 #include "passes/aggregations/set_bits.hpp"
 #include "texts.hpp"
 
+#include <algorithm>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -13,7 +14,8 @@ namespace {
 const std::string robbed = "(exists_{?t : pair} [robs(?t) == ?o])";
 
 // Two thieves, each of whom chooses one of the objects b1, b2, ...
-ir::Program with_rows(const std::string& reward, int objects, passes::Report& report) {
+ir::Program with_rows(const std::string& reward, int objects, passes::Report& report,
+                      RealType real = RealType::Double) {
     const Problem problem{
         .pvariables =
             "robs(pair) : { state-fluent, obj };\n"
@@ -33,6 +35,7 @@ ir::Program with_rows(const std::string& reward, int objects, passes::Report& re
     passes::Report of_rows;
     Grounded result = ground_text(text);
     if (!result.program) throw std::runtime_error(result.messages);
+    result.program->real = real;
     return valid(passes::tabulate_sums(passes::set_bits(*result.program, of_rows), report));
 }
 
@@ -77,6 +80,20 @@ TEST(TabulateSums, AddsTheTermsBehindTheTable) {
                   "    = reward-sums[bit_and(word, 255)] + "
                   "reward-terms[bit_and(shift_right(word, 8), 1)] + "
                   "reward-terms[shift_right(word, 9)]\n");
+}
+
+TEST(TabulateSums, AddsFloatsAsSuch) {
+    passes::Report report;
+    const ir::Program program =
+        with_rows("if (" + robbed + ") then 0.1 else 0.7", 4, report, RealType::Float);
+    const auto sums = std::ranges::find(program.buffers, "reward-sums", &ir::Buffer::name);
+    ASSERT_NE(sums, program.buffers.end());
+    const float all = 0.1F + 0.1F + 0.1F + 0.1F, none = 0.7F + 0.7F + 0.7F + 0.7F;
+    EXPECT_EQ(sums->values[0], ir::Value(double{none}));
+    EXPECT_EQ(sums->values[15], ir::Value(double{all}));
+    const ir::Program left =
+        with_rows("0.7 * GAIN(?o) + 0.1 * " + robbed, 4, report, RealType::Float);
+    EXPECT_EQ(table_text(left, "reward-sums"), "");
 }
 
 // Terms that more than bools decide, bools that are no ints, and many terms.

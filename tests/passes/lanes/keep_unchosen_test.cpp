@@ -32,7 +32,9 @@ TEST(KeepUnchosen, LeavesOthers) {
          {"seen(?o) | use(?o, ?o)",
           "seen(?o) ^ exists_{?p : obj, ?q : obj} [use(?p, ?o) ^ lost(?q) ^ help(?q)]",
           "seen(?o) | exists_{?p : obj, ?q : obj} [use(?p, ?o) | lost(?q) ^ help(?q) | lost(?p)]",
-          "exists_{?p : obj, ?q : obj} [seen(?q) ^ lost(?p)]"}) {
+          "exists_{?p : obj, ?q : obj} [seen(?q) ^ lost(?p)]",
+          "seen(?o) | exists_{?p : obj, ?q : obj} [use(?p, Discrete_{?r : obj} [lost(?r)]) ^ "
+          "lost(?q)]"}) {
         const ir::Program program = grounded_with(cpf);
         passes::Report report;
         EXPECT_EQ(ir::print(passes::keep_unchosen(program, report)), ir::print(program));
