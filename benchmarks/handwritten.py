@@ -257,7 +257,11 @@ def parse_arguments() -> argparse.Namespace:
     parser.add_argument("--rounds", type=int, default=5, help="turns of each side")
     parser.add_argument("--require", action="store_true", help="fail below the limit")
     parser.add_argument("--write", action="store_true", help="write docs/benchmarks.md")
-    return parser.parse_args()
+    options = parser.parse_args()
+    for problem in options.problems:
+        if problem not in REFERENCES:
+            parser.error(f"there is no reference of '{problem}'; there are {', '.join(REFERENCES)}")
+    return options
 
 
 def main() -> int:
