@@ -119,10 +119,7 @@ class BlockCost {
         add(loop.body, inside(place, loop.variable, times));
     }
     double times_of(const Loop& loop) const {
-        const double at_once = !properties_.empty()   ? 1
-                               : loop.as_words        ? bools_at_once
-                               : loop.several_at_once ? objects_at_once
-                                                      : 1;
+        const double at_once = properties_.empty() ? iterations_at_once(loop) : 1;
         return std::ceil(size_of(program_, loop.variable) / at_once);
     }
     // Words of bools show which ones are true: those of the initial state, one at least.
@@ -296,6 +293,11 @@ PackCost cost_of(const Program& program, std::span<const Properties> properties)
 }
 
 }  // namespace
+
+double iterations_at_once(const Loop& loop) {
+    if (loop.as_words) return bools_at_once;
+    return loop.several_at_once ? objects_at_once : 1;
+}
 
 double cost_of(Operator op) {
     if (is_elementary(op)) return elementary_cost;

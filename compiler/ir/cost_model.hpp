@@ -25,6 +25,8 @@ inline constexpr double step_cost = 100;
 inline constexpr double objects_at_once = 4;
 // The same where values are bools: some instructions take 64 of them from tables to words and back.
 inline constexpr double bools_at_once = 16;
+// How many iterations this loop makes at once where one environment runs it.
+double iterations_at_once(const Loop& loop);
 
 // The elements of a table that a pass may add: environments need memory for it.
 inline constexpr double most_new_elements = 1e6;

@@ -193,6 +193,16 @@ NodeId replace_in(Builder& builder, NodeId id, std::map<NodeId, NodeId>& known, 
     return known[id] = builder.rebuild(node);
 }
 
+NodeId replace_reductions_in(Builder& builder, NodeId value, const Find& find) {
+    std::map<NodeId, NodeId> known;
+    return replace_in(builder, value, known, [&](NodeId id) -> std::optional<NodeId> {
+        const auto& form = builder.program()[id].form;
+        if (std::holds_alternative<Select>(form)) return id;
+        if (!std::holds_alternative<Reduce>(form)) return std::nullopt;
+        return find(id).value_or(id);
+    });
+}
+
 std::map<NodeId, NodeId> combination(Builder& builder, std::span<const VariableId> variables,
                                      std::int64_t number) {
     std::map<NodeId, NodeId> values;

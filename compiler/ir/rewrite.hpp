@@ -26,6 +26,9 @@ NodeId replace_in(Builder& builder, NodeId id, std::map<NodeId, NodeId>& known);
 // with replacements in its operands. So the outermost nodes with a replacement are replaced.
 using Find = std::function<std::optional<NodeId>(NodeId)>;
 NodeId replace_in(Builder& builder, NodeId id, std::map<NodeId, NodeId>& known, const Find& find);
+// A value outside of loops in which `find` looks at the outermost reductions alone, and not at
+// those in branches, which are not always evaluated.
+NodeId replace_reductions_in(Builder& builder, NodeId value, const Find& find);
 // The variables, as keys, and their values in the combination of that row-major number.
 std::map<NodeId, NodeId> combination(Builder& builder, std::span<const VariableId> variables,
                                      std::int64_t number);

@@ -429,8 +429,7 @@ class BitCounting {
 
     // Ones for the elements that there are.
     std::int64_t whole_word(std::int64_t word) const {
-        const std::int64_t count = std::min(size_ - word * bits_of_an_int, bits_of_an_int);
-        return static_cast<std::int64_t>(~std::uint64_t{0} >> (bits_of_an_int - count));
+        return first_bits(std::min(size_ - word * bits_of_an_int, bits_of_an_int));
     }
 
     ir::NodeId inverted(ir::NodeId bits) {

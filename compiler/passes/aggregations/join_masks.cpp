@@ -302,7 +302,7 @@ class Joining {
         ir::NodeId joined = builder_.constant(std::int64_t{0});
         for (std::int64_t row = 0; row < ir::combinations(program_, image.rows); ++row) {
             std::map<ir::NodeId, ir::NodeId> known = ir::combination(builder_, image.rows, row);
-            const std::uint64_t ones = ~std::uint64_t{0} >> (bits_of_an_int - size);
+            const auto ones = static_cast<std::uint64_t>(first_bits(size));
             const ir::NodeId own = builder_.apply(
                 Operator::BitAnd,
                 {all, builder_.constant(static_cast<std::int64_t>(ones << row * size))});

@@ -88,8 +88,7 @@ ir::NodeId RowWords::none() {
     return builder_.constant(std::int64_t{0});
 }
 ir::NodeId RowWords::all() {
-    return builder_.constant(
-        static_cast<std::int64_t>(~std::uint64_t{0} >> (bits_of_an_int - size())));
+    return builder_.constant(first_bits(size()));
 }
 ir::NodeId RowWords::inverted(ir::NodeId word) {
     return builder_.apply(Operator::BitXor, {word, all()});

@@ -12,6 +12,10 @@
 namespace rddlc::passes {
 
 inline constexpr std::int64_t bits_of_an_int = 64;
+// An int of which so many bits are 1, from the lowest on; at least one is.
+constexpr std::int64_t first_bits(std::int64_t count) {
+    return static_cast<std::int64_t>(~std::uint64_t{0} >> (bits_of_an_int - count));
+}
 
 // The leading indices of an element, if the row that they choose is the same one in all
 // environments and no constant, so that ir::Bits may read it.

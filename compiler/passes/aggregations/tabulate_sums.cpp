@@ -36,24 +36,12 @@ class SumTabulation {
         : program_(std::move(program)), report_(report), builder_(program_) {}
 
     ir::Program run() && {
-        program_.reward.value = with_tables(program_.reward.value);
+        program_.reward.value = ir::replace_reductions_in(
+            builder_, program_.reward.value, [&](ir::NodeId id) { return looked_up(id); });
         return ir::collect_garbage(std::move(program_));
     }
 
   private:
-    // A value outside of loops. What is in a branch is not always evaluated.
-    ir::NodeId with_tables(ir::NodeId value) {
-        std::map<ir::NodeId, ir::NodeId> known;
-        return ir::replace_in(builder_, value, known,
-                              [&](ir::NodeId id) -> std::optional<ir::NodeId> {
-                                  if (std::holds_alternative<ir::Select>(program_[id].form))
-                                      return id;
-                                  if (!std::holds_alternative<ir::Reduce>(program_[id].form))
-                                      return std::nullopt;
-                                  return looked_up(id).value_or(id);
-                              });
-    }
-
     std::optional<ir::NodeId> looked_up(ir::NodeId id) {
         if (!is_sum_of_few(id)) return std::nullopt;
         const ir::Reduce sum = std::get<ir::Reduce>(program_[id].form);
@@ -142,8 +130,7 @@ class SumTabulation {
         if (first > 0)
             word = builder_.apply(Operator::ShiftRight, {word, builder_.constant(first)});
         if (first + count == all) return word;
-        const std::int64_t mask = (std::int64_t{1} << count) - 1;
-        return builder_.apply(Operator::BitAnd, {word, builder_.constant(mask)});
+        return builder_.apply(Operator::BitAnd, {word, builder_.constant(first_bits(count))});
     }
 
     // The sums of the first terms by the bits of their bools, added in their order.

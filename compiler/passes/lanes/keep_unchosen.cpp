@@ -82,11 +82,8 @@ class Keeping {
     double cost_of(const ir::Loop& loop, const ir::Nest& nest, ir::NodeId value) {
         std::map<ir::NodeId, ir::NodeId> known;
         const ir::NodeId whole = replace_reads(value, known, [](ir::BufferId) { return false; });
-        const double at_once = loop.as_words          ? ir::bools_at_once
-                               : loop.several_at_once ? ir::objects_at_once
-                                                      : 1;
         const auto objects = static_cast<double>(ir::combinations(program_, nest.variables));
-        return std::ceil(objects / at_once) * builder_.properties(whole).cost;
+        return std::ceil(objects / ir::iterations_at_once(loop)) * builder_.properties(whole).cost;
     }
 
     // Remembers the values of the Lets. A fault of one must not disappear with the loop.

@@ -164,20 +164,16 @@ class Separation {
 
     // A value outside of loops, the terms of whose sums are tables.
     ir::NodeId with_terms(ir::NodeId value, ir::Block& before) {
-        std::map<ir::NodeId, ir::NodeId> known;
-        return ir::replace_in(builder_, value, known,
-                              [&](ir::NodeId id) { return over_table(id, before); });
+        return ir::replace_reductions_in(builder_, value,
+                                         [&](ir::NodeId id) { return over_table(id, before); });
     }
 
     std::optional<ir::NodeId> over_table(ir::NodeId id, ir::Block& before) {
-        const bool is_branch = std::holds_alternative<ir::Select>(program_[id].form);
-        if (is_branch) return id;  // what is in it is not always evaluated
-        if (!std::holds_alternative<ir::Reduce>(program_[id].form)) return std::nullopt;
         const auto nest = ir::reduction_nest(program_, id);
         const bool is_quantifier = nest && program_[nest->body].type == ir::Scalar::Bool;
         if (!nest || (nest->op != Reduction::Sum && !is_quantifier) ||
             !is_worth_a_table(nest->variables, nest->body))
-            return id;
+            return std::nullopt;
         report_[is_quantifier ? "quantifiers whose terms are computed before"
                               : "sums whose terms are computed before"] += 1;
         const ir::NodeId term = table_of(nest->body, "terms", nest->variables, before);

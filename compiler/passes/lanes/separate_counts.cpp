@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <map>
 #include <string>
 #include <utility>
 #include <vector>
@@ -44,17 +43,10 @@ class CountSeparation {
     }
 
   private:
-    // A value outside of loops. What is in a branch is not always evaluated.
+    // A value outside of loops.
     ir::NodeId with_counts(ir::NodeId value, ir::Block& before) {
-        std::map<ir::NodeId, ir::NodeId> known;
-        return ir::replace_in(builder_, value, known,
-                              [&](ir::NodeId id) -> std::optional<ir::NodeId> {
-                                  if (std::holds_alternative<ir::Select>(program_[id].form))
-                                      return id;
-                                  if (!std::holds_alternative<ir::Reduce>(program_[id].form))
-                                      return std::nullopt;
-                                  return counted(id, before).value_or(id);
-                              });
+        return ir::replace_reductions_in(builder_, value,
+                                         [&](ir::NodeId id) { return counted(id, before); });
     }
 
     std::optional<ir::NodeId> counted(ir::NodeId id, ir::Block& before) {
