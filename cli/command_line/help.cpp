@@ -16,32 +16,6 @@ std::string indented(std::size_t width) {
     return std::string(width, ' ');
 }
 
-// The name, and on its right the explanation, in lines that fit the page.
-std::string entry(const std::string& name, const std::string& text) {
-    std::string out = "  " + name;
-    std::size_t column = out.size();
-    if (column + 2 > text_column) {
-        out += '\n';
-        column = 0;
-    }
-    out += indented(text_column - column);
-    column = text_column;
-    std::istringstream words(text);
-    for (std::string word; words >> word;) {
-        if (column > text_column && column + 1 + word.size() > page_width) {
-            out += '\n' + indented(text_column);
-            column = text_column;
-        }
-        if (column > text_column) {
-            out += ' ';
-            ++column;
-        }
-        out += word;
-        column += word.size();
-    }
-    return out + '\n';
-}
-
 std::string name_of(const Option& option) {
     std::string name = option.names;
     for (std::size_t at = name.find(','); at != std::string::npos; at = name.find(',', at + 2))
@@ -62,7 +36,8 @@ std::string usage(const Command& command, const std::string& full_name) {
 std::string arguments_text(const Command& command) {
     std::string text;
     for (const Option& option : command.options)
-        if (option.kind == OptionKind::Argument) text += entry(name_of(option), option.explanation);
+        if (option.kind == OptionKind::Argument)
+            text += help_entry(name_of(option), option.explanation);
     return text.empty() ? text : "\nArguments:\n" + text;
 }
 
@@ -80,7 +55,7 @@ std::string options_text(const Command& command, bool is_program) {
     std::string text;
     for (const Option& option : listed) {
         if (!option.title.empty()) text += "\n" + option.title + ":\n";
-        text += entry(name_of(option), option.explanation);
+        text += help_entry(name_of(option), option.explanation);
     }
     return text;
 }
@@ -88,11 +63,36 @@ std::string options_text(const Command& command, bool is_program) {
 std::string commands_text(const Command& command) {
     if (command.commands.empty()) return "";
     std::string text = "\nCommands:\n";
-    for (const Command& each : command.commands) text += entry(each.name, each.summary);
+    for (const Command& each : command.commands) text += help_entry(each.name, each.summary);
     return text;
 }
 
 }  // namespace
+
+std::string help_entry(const std::string& name, const std::string& explanation) {
+    std::string out = "  " + name;
+    std::size_t column = out.size();
+    if (column + 2 > text_column) {
+        out += '\n';
+        column = 0;
+    }
+    out += indented(text_column - column);
+    column = text_column;
+    std::istringstream words(explanation);
+    for (std::string word; words >> word;) {
+        if (column > text_column && column + 1 + word.size() > page_width) {
+            out += '\n' + indented(text_column);
+            column = text_column;
+        }
+        if (column > text_column) {
+            out += ' ';
+            ++column;
+        }
+        out += word;
+        column += word.size();
+    }
+    return out + '\n';
+}
 
 std::string help_text(const Command& command, const std::string& full_name) {
     const bool is_program = command.name == full_name;

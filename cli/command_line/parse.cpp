@@ -127,9 +127,32 @@ std::string unknown_command(const std::string& name, const Command& program) {
     return fmt::format("no command is called '{}'{}", name, end);
 }
 
+const Option* option_named(const Command& command, const std::string& name) {
+    for (const Option& option : command.options)
+        for (const std::string& each : names_of(option))
+            if (option.kind != OptionKind::Argument && each == name) return &option;
+    return nullptr;
+}
+
+// The word may belong to the list before it, as in `--policies noop random`.
+std::string too_many_arguments(const std::string& extra, std::span<char* const> words,
+                               const Command* chosen) {
+    const auto at = std::ranges::find(words, extra, [](const char* word) { return word; });
+    const auto place = static_cast<std::size_t>(at - words.begin());
+    const Option* const before = chosen && place >= 2 && place < words.size()
+                                     ? option_named(*chosen, words[place - 2])
+                                     : nullptr;
+    return fmt::format(
+        "too many arguments: '{}'{}", extra,
+        before && before->kind != OptionKind::Flag
+            ? fmt::format("; {} takes one word, with commas and without blanks", words[place - 2])
+            : "");
+}
+
 // A helpful message for words that CLI11 does not take.
 std::string message_of(const CLI::ParseError& error, const std::vector<std::string>& left,
-                       const Command& program, const Command* chosen) {
+                       std::span<char* const> words, const Command& program,
+                       const Command* chosen) {
     const auto is_option = [](const std::string& word) {
         return word.starts_with('-');
     };
@@ -141,7 +164,7 @@ std::string message_of(const CLI::ParseError& error, const std::vector<std::stri
         return fmt::format("unknown option '{}'{}", name,
                            option_meant_text(name, known_options(chosen ? *chosen : program)));
     }
-    if (!left.empty()) return fmt::format("too many arguments: '{}'", left.front());
+    if (!left.empty()) return too_many_arguments(left.front(), words, chosen);
     return error.what();
 }
 
@@ -175,13 +198,6 @@ const Command& command_in(const Command& program, std::span<char* const> words) 
     if (words.empty()) return program;
     const auto found = std::ranges::find(program.commands, words.front(), &Command::name);
     return found == program.commands.end() ? program : *found;
-}
-
-const Option* option_named(const Command& command, const std::string& name) {
-    for (const Option& option : command.options)
-        for (const std::string& each : names_of(option))
-            if (option.kind != OptionKind::Argument && each == name) return &option;
-    return nullptr;
 }
 
 // `--trace=$FILE` without a FILE would take the next word for its value, and the last word would
@@ -299,8 +315,8 @@ ExitStatus run_command_line(const Command& program, const std::string& version, 
         return success;
     } catch (const CLI::ParseError& error) {
         const Declared* const command = chosen();
-        return complain(
-            message_of(error, app.remaining(true), program, command ? command->command : nullptr));
+        return complain(message_of(error, app.remaining(true), words, program,
+                                   command ? command->command : nullptr));
     } catch (const UsageError& error) {
         return complain(error.what());
     }

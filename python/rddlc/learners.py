@@ -312,7 +312,7 @@ class PPO(Learner):
 
     """
 
-    __doc__ = (__doc__ or "") + _native.ppo_options()
+    __doc__ = (__doc__ or "").rstrip(" ") + _native.ppo_options()
 
     solver, extension, total = "ppo", ".json", "steps"
 
@@ -345,7 +345,7 @@ class CGP(Learner):
 
     """
 
-    __doc__ = (__doc__ or "") + _native.cgp_options()
+    __doc__ = (__doc__ or "").rstrip(" ") + _native.cgp_options()
 
     solver, extension, total = "cgp", ".cgp", "generations"
 
@@ -380,7 +380,7 @@ class DRP(Learner):
 
     """
 
-    __doc__ = (__doc__ or "") + _native.drp_options()
+    __doc__ = (__doc__ or "").rstrip(" ") + _native.drp_options()
 
     solver, extension, total = "drp", ".json", "steps"
 

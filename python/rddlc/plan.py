@@ -17,7 +17,7 @@ from .arguments import shown
 from .environment import RDDLEnv
 from .errors import ArgumentError
 from .evaluation import Evaluation, evaluation_of
-from .learners import Solvable, Wrapped
+from .learners import Learner, Solvable, Wrapped
 from .problems import Problem
 
 __all__ = ["CEM", "Gradient", "Planner", "Rollout", "UCT"]
@@ -89,6 +89,11 @@ def _option(item: tuple[str, Any]) -> str:
     keyword, value = item
     if isinstance(value, bool):
         value = "yes" if value else "no"
+    if isinstance(value, (Learner, Planner)):
+        raise ArgumentError(
+            f"{keyword} is a {type(value).__name__}, not a text: give the name of a policy file, as "
+            f"save() writes it, or that of a policy, as in {keyword}='random'"
+        )
     word = os.fsdecode(value) if isinstance(value, os.PathLike) else str(value)
     if "," in word:
         raise ArgumentError(f"{keyword}: '{word}' has a comma in it, which separates options")
@@ -100,7 +105,7 @@ class CEM(Planner):
 
     """
 
-    __doc__ = (__doc__ or "") + _native.planner_options("cem")
+    __doc__ = (__doc__ or "").rstrip(" ") + _native.planner_options("cem")
     name = "cem"
 
 
@@ -109,7 +114,7 @@ class Gradient(Planner):
 
     """
 
-    __doc__ = (__doc__ or "") + _native.planner_options("gradient")
+    __doc__ = (__doc__ or "").rstrip(" ") + _native.planner_options("gradient")
     name = "gradient"
 
 
@@ -118,7 +123,7 @@ class Rollout(Planner):
 
     """
 
-    __doc__ = (__doc__ or "") + _native.planner_options("rollout")
+    __doc__ = (__doc__ or "").rstrip(" ") + _native.planner_options("rollout")
     name = "rollout"
 
 
@@ -127,5 +132,5 @@ class UCT(Planner):
 
     """
 
-    __doc__ = (__doc__ or "") + _native.planner_options("uct")
+    __doc__ = (__doc__ or "").rstrip(" ") + _native.planner_options("uct")
     name = "uct"

@@ -87,6 +87,9 @@ class Planners(unittest.TestCase):
             rddlc.plan.UCT(problem, steps=0)
         with self.assertRaisesRegex(rddlc.Error, "say which one"):
             rddlc.plan.Rollout(problem)
+        for policy in (rddlc.PPO(problem), rddlc.plan.CEM(problem, steps=1)):
+            with self.assertRaisesRegex(rddlc.Error, "policy is a .*, not a text: give the name of a"):
+                rddlc.plan.Rollout(problem, policy=policy)
         with self.assertRaisesRegex(rddlc.Error, "in which env it acts"):
             rddlc.plan.CEM(problem, steps=1).act()
         with self.assertRaisesRegex(rddlc.Error, r"(?s)hides from policies.*in Python, with cheat=True"):
@@ -102,7 +105,7 @@ class Planners(unittest.TestCase):
     def test_documentation_lists_all_options(self) -> None:
         for planner in (rddlc.plan.CEM, rddlc.plan.UCT, rddlc.plan.Rollout):
             for option in ("seconds", "steps", "iterations", "horizon", "policy", "cheat", "seed"):
-                self.assertIn(f"    {option}: ", planner.__doc__ or "")
+                self.assertIn(f"\n    {option}: ", planner.__doc__ or "")
 
 
 if __name__ == "__main__":

@@ -56,6 +56,9 @@ INSTANTIATE_TEST_SUITE_P(
         Misuse{"run domain.rddl instance.rddl --episode=3",
                "unknown option '--episode'; did you mean '--episodes'?"},
         Misuse{"run domain.rddl instance.rddl more", "too many arguments: 'more'"},
+        Misuse{"compare domain.rddl instance.rddl --policies noop random",
+               "too many arguments: 'random'; --policies takes one word, with commas and "
+               "without blanks"},
         Misuse{"run domain.rddl instance.rddl --episodes 0",
                "--episodes: '0' is not an int from 1 to 100000000"},
         Misuse{"run domain.rddl instance.rddl --episodes abc",

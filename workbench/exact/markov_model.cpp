@@ -4,6 +4,7 @@
 #include "support/failure.hpp"
 #include "terminal/interrupt.hpp"
 #include "terminal/parallel.hpp"
+#include "terminal/progress.hpp"
 
 #include <fmt/format.h>
 
@@ -162,13 +163,17 @@ class Builder {
     // The states from `first` on, at most `end`: computed side by side, and added one by one.
     void expand(StateNumber first, StateNumber end) {
         block_ = std::min<std::size_t>(states_at_once, end - first);
+        bar_.expect(model_.states.count());
         constexpr std::size_t together = 16;
         const std::size_t parts = (block_ + together - 1) / together;
         for_each_in_parallel(parts, limits_.threads, [&](std::size_t part) {
             Expansion expansion(interpreter_, model_.actions, limits_);
-            for (std::size_t k = part * together; k < std::min(block_, (part + 1) * together); ++k)
+            for (std::size_t k = part * together; k < std::min(block_, (part + 1) * together);
+                 ++k) {
                 expansion.expand(model_.states.record(first + static_cast<StateNumber>(k)),
                                  expanded_[k]);
+                bar_.advance();
+            }
         });
         for (std::size_t k = 0; k < block_; ++k) add(expanded_[k]);
         require_limits();
@@ -206,6 +211,7 @@ class Builder {
     MarkovModel model_;
     std::vector<std::vector<Choice>> expanded_;
     std::size_t block_ = 0;
+    Progress bar_{"listing states", 1};  // of those that are known by now
 };
 
 double values_of(const rddl_problem& problem, const rddl_fluent& fluent, std::int64_t grounding) {

@@ -9,18 +9,6 @@
 
 namespace rddlc::workbench {
 
-std::string planner_help() {
-    std::string text =
-        "Planners are policies that search before each action: plan:NAME[,key=value...], such as\n"
-        "plan:cem,seconds=0.1 (docs/planning.md).\n";
-    for (const planners::PlannerText& planner : planners::planner_texts()) {
-        text += fmt::format("\nplan:{}: {}\n", planner.name, planner.summary);
-        for (const solvers::OptionText& option : planner.options)
-            text += fmt::format("  {:<24} {}\n", option.name + "=" + option.value, option.help);
-    }
-    return text;
-}
-
 Explanations::Explanations(PlannerSettings& settings, const rddl_problem& problem,
                            const UsedFiles& used)
     : problem_(problem), actions_(problem, RDDL_ACTION) {

@@ -23,9 +23,6 @@ struct PlannerSettings {
     solvers::DerivativesSource derivatives = {};
 };
 
-// All planners with their options, for --help.
-std::string planner_help();
-
 // A file with a line of JSON for each decision, in the order of episodes and steps.
 class Explanations {
   public:

@@ -24,6 +24,22 @@ void Progress::advance(std::int64_t amount) {
     if (!shown_) return;
     const std::scoped_lock lock(mutex_);
     done_ += amount;
+    draw_in_time();
+}
+
+void Progress::reach(std::int64_t done) {
+    if (!shown_) return;
+    const std::scoped_lock lock(mutex_);
+    done_ = done;
+    draw_in_time();
+}
+
+void Progress::expect(std::int64_t total) {
+    const std::scoped_lock lock(mutex_);
+    total_ = std::max<std::int64_t>(total, 1);
+}
+
+void Progress::draw_in_time() {
     const Clock::time_point now = Clock::now();
     if (now - last_drawn_ < std::chrono::milliseconds(100)) return;
     last_drawn_ = now;

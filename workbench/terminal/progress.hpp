@@ -18,10 +18,15 @@ class Progress {
 
     // May be called from several threads, as often as one likes: draws a few times a second.
     void advance(std::int64_t amount = 1);
+    // So much is done by now; likewise.
+    void reach(std::int64_t done);
+    // There is so much work in all, as is known by now.
+    void expect(std::int64_t total);
 
   private:
     using Clock = std::chrono::steady_clock;
 
+    void draw_in_time();
     void draw(Clock::time_point now);
 
     std::string what_;

@@ -286,6 +286,19 @@ void add_policy(std::vector<std::string>& policies, const std::string& word) {
         policies.push_back(word);
 }
 
+// All planners with their options.
+std::string planner_help() {
+    std::string text =
+        "Planners are policies that search before each action: plan:NAME[,key=value...], such as\n"
+        "plan:cem,seconds=0.1 (docs/planning.md).\n";
+    for (const planners::PlannerText& planner : planners::planner_texts()) {
+        text += fmt::format("\nplan:{}: {}\n", planner.name, planner.summary);
+        for (const solvers::OptionText& option : planner.options)
+            text += help_entry(option.name + "=" + option.value, option.help);
+    }
+    return text;
+}
+
 }  // namespace
 
 Command evaluate_command() {

@@ -10,9 +10,12 @@
 #include "support/failure.hpp"
 #include "support/program.hpp"
 #include "terminal/interrupt.hpp"
+#include "terminal/progress.hpp"
 
 #include <fmt/format.h>
 
+#include <chrono>
+#include <cmath>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -41,16 +44,29 @@ std::string planner_of(const TrainPlanOptions& options, std::int64_t horizon) {
     return fmt::format("plan:gradient,{},horizon={},replan={}", budget, horizon, horizon);
 }
 
+std::int64_t in_milliseconds(double seconds) {
+    return std::llround(1000 * seconds);
+}
+
 // A signal ends the search in the first step, and the episode is then played to its end by the plan
 // that was found. Before the first of the `gradients` there is no plan, so that nothing is played.
+// A bar shows the part of `seconds` that has passed.
 solvers::Policy ending_search_by_signals(solvers::Policy policy,
-                                         std::shared_ptr<const std::int64_t> gradients) {
-    policy.start = [start = policy.start, gradients](std::int64_t environments) {
+                                         std::shared_ptr<const std::int64_t> gradients,
+                                         std::optional<double> seconds) {
+    policy.start = [start = policy.start, gradients, seconds](std::int64_t environments) {
         const solvers::Actor actor = start(environments);
         give_up_if_interrupted("making the planner");
-        return [actor, gradients,
-                stops = solvers::Stops(is_interrupted)](solvers::Decision& decision) {
+        return [actor, gradients, seconds](solvers::Decision& decision) {
             const bool searches = decision.steps.front() == 0;
+            Progress bar("searching", in_milliseconds(seconds.value_or(0)), searches && seconds);
+            const auto begin = std::chrono::steady_clock::now();
+            const solvers::Stops stops = [&] {
+                bar.reach(in_milliseconds(
+                    std::chrono::duration<double>(std::chrono::steady_clock::now() - begin)
+                        .count()));
+                return is_interrupted();
+            };
             decision.stops = searches ? &stops : nullptr;
             actor(decision);
             if (searches && *gradients == 0)
@@ -123,10 +139,10 @@ ExitStatus train_plan(const TrainPlanOptions& options) {
     LineWriter trace(options.out, problem.used);
     trace.write(trace_header_line(header, *simulator.problem));
     give_up_if_interrupted("making the planner");
-    const solvers::Policy policy =
-        ending_search_by_signals(policy_named(simulator, rollouts.planner, false, options.seed,
-                                              rollouts.memory_limit, rollouts.planning),
-                                 gradients);
+    const solvers::Policy policy = ending_search_by_signals(
+        policy_named(simulator, rollouts.planner, false, options.seed, rollouts.memory_limit,
+                     rollouts.planning),
+        gradients, options.iterations ? std::nullopt : std::optional(options.seconds));
     PlanLines plan;
     run_episodes(simulator, policy, rollouts,
                  [&](const std::string& lines) {
