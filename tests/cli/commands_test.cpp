@@ -512,6 +512,23 @@ TEST_F(Program, EndsWithStatus1IfEveryEpisodeFaulted) {
             .err.starts_with("rddl: error: the only episode faulted; the first fault: episode 0"));
 }
 
+// A program that reads lines of JSON meets nothing else.
+TEST_F(Program, ExplainsDecisionsToStandardOutputAlone) {
+    for (const char* const command : {"run", "evaluate"}) {
+        const Outcome outcome =
+            run(command +
+                std::string(" domain.rddl instance.rddl --episodes 1 --horizon 2 "
+                            "--policy plan:cem,iterations=1 --explain-decisions -") +
+                interpreted);
+        EXPECT_EQ(outcome.status, 0) << outcome.err;
+        std::istringstream lines(outcome.out);
+        int steps = 0;
+        for (std::string line; std::getline(lines, line); ++steps)
+            EXPECT_EQ(json::parse(line)["step"], steps);
+        EXPECT_EQ(steps, 2) << command;
+    }
+}
+
 TEST_F(Program, EvaluatesWithTheReasonOfTheFirstFault) {
     write_file(folder_ / "faulty.rddl", faulty_problem("1.0"));
     const Outcome outcome = run("evaluate faulty.rddl --episodes 5" + std::string(interpreted));

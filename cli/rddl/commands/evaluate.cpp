@@ -41,7 +41,11 @@ struct EvaluationOptions {
 // The greatest discounted return that a policy can have on average.
 struct KnownOptimum {
     double value = 0;
-    double below(const Evaluation& one) const { return value - one.summary.discounted_return.mean; }
+    // Both are sums of the same numbers in another order, if the policy is as good.
+    double below(const Evaluation& one) const {
+        const double difference = value - one.summary.discounted_return.mean;
+        return std::abs(difference) <= 1e-12 * std::abs(value) ? 0 : difference;
+    }
 };
 
 // A figure of episodes, of which an interrupted evaluation may have none.
@@ -243,8 +247,10 @@ ExitStatus evaluate_all(const EvaluationOptions& options) {
         explanations.write(name);
     }
     explanations.finish();
-    options.json ? print_json(files, all, optimum, options)
-                 : print_table(*simulator.problem, all, optimum, options);
+    if (options.json)
+        print_json(files, all, optimum, options);
+    else if (options.planning.explanations != "-")
+        print_table(*simulator.problem, all, optimum, options);
     const bool has_episodes = std::any_of(
         all.begin(), all.end(), [](const Evaluation& one) { return one.summary.episodes > 0; });
     if (options.chart.any() && has_episodes) draw(*simulator.problem, all, options);

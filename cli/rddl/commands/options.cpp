@@ -131,7 +131,8 @@ void add_planner_options(Command& command, PlannerSettings& planning) {
     add_flag(command, "--cheat", "Let planners see the state of problems that are observed in part",
              planning.cheat);
     add_text_option(command, "--explain-decisions", "FILE",
-                    "Write what planners' decisions were made by, a line of JSON each; - is stdout",
+                    "Write what planners' decisions were made by, a line of JSON each; - is "
+                    "stdout, without a summary",
                     planning.explanations);
 }
 

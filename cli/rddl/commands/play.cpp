@@ -146,8 +146,9 @@ ExitStatus play(PlayCommandOptions options) {
     const Played played = play_session(server, session, simulator, policy, playing);
     explanations.write(options.policy);
     explanations.finish();
-    report(played, *simulator.problem, options,
-           std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
+    if (options.json || options.planning.explanations != "-")
+        report(played, *simulator.problem, options,
+               std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
     return success;
 }
 

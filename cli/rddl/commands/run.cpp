@@ -243,7 +243,9 @@ ExitStatus run(const RunOptions& options) {
                               explainer);
     if (options.json)
         print_json(options, summary, rollouts, problem, explainer);
-    else if (!options.quiet && options.trace != "-" && !options.pictures.any_on_standard_output())
+    else if (!options.quiet && options.trace != "-" &&
+             options.rollouts.planning.explanations != "-" &&
+             !options.pictures.any_on_standard_output())
         print_summary(options, summary, rollouts, problem, explainer);
     if (rollouts.first_fault) report_faults(summary, *rollouts.first_fault);
     const bool failed = summary.refused > 0 || all_faulted(summary);
