@@ -245,7 +245,7 @@ Learner ppo(const LoadedProblem& problem, const nb::dict& given) {
     const rddl_simulator& simulator = *problem.simulator;
     const solvers::Demonstrate shown =
         workbench::demonstrate(simulator, imitation, ppo.seed, ppo.memory_limit,
-                               {.derivatives = problem.derivatives}, ppo.stops);
+                               {.derivatives = problem.derivatives}, ppo.stops, true);
     return {problem.simulator, solvers::ppo_trainee(simulator, ppo, {}, shown), stop};
 }
 

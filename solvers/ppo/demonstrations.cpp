@@ -76,16 +76,14 @@ class DemonstrationRecorder : public Recorder {
 }  // namespace
 
 Demonstrations demonstrations(const rddl_simulator& simulator, const PpoModel& model,
-                              const Policy& policy, const EpisodeOptions& options,
-                              const std::function<bool()>& stops) {
+                              const Policy& policy, const EpisodeOptions& options, Watch watch) {
     Demonstrations all;
-    Watch watch;
-    watch.stops = stops;
     watch.record = [&](std::int64_t environments) {
         return std::make_unique<DemonstrationRecorder>(simulator, model, environments, all);
     };
     const Rollouts rollouts = run_episodes(simulator, policy, options, watch);
-    if (stops && stops()) throw Failure("interrupted while it was shown what to imitate");
+    if (watch.stops && watch.stops())
+        throw Failure("interrupted while it was shown what to imitate");
     for (const double reward : all.rewards)
         if (!std::isfinite(reward))
             throw Failure(

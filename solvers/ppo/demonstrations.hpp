@@ -27,11 +27,10 @@ struct Demonstrations {
     std::size_t count() const { return rewards.size(); }
 };
 
-// Plays the episodes of `options`. Steps that fault are left out. Throws a Failure where a reward
-// is not finite, or nothing was played.
+// Plays the episodes of `options`, watched without a record. Steps that fault are left out. Throws
+// a Failure where a reward is not finite, or nothing was played.
 Demonstrations demonstrations(const rddl_simulator& simulator, const PpoModel& model,
-                              const Policy& policy, const EpisodeOptions& options,
-                              const std::function<bool()>& stops);
+                              const Policy& policy, const EpisodeOptions& options, Watch watch);
 
 // Makes them for a model, whose features they have.
 using Demonstrate = std::function<Demonstrations(const PpoModel& model)>;

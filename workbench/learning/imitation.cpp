@@ -2,8 +2,11 @@
 
 #include "learning/learned_policy.hpp"
 #include "planners/planner/planner_policy.hpp"
+#include "terminal/progress.hpp"
 
 #include <fmt/format.h>
+
+#include <algorithm>
 
 namespace rddlc::workbench {
 
@@ -58,7 +61,7 @@ const solvers::OptionTable<Imitation>& imitation_option_table() {
 solvers::Demonstrate demonstrate(const rddl_simulator& simulator, const Imitation& imitation,
                                  std::uint64_t seed, std::int64_t memory_limit,
                                  const PlannerSettings& planning,
-                                 const std::function<bool()>& stops) {
+                                 const std::function<bool()>& stops, bool quiet) {
     if (imitation.policy.empty()) return {};
     return [=, &simulator](const solvers::PpoModel& model) {
         solvers::EpisodeOptions episodes;
@@ -67,7 +70,11 @@ solvers::Demonstrate demonstrate(const rddl_simulator& simulator, const Imitatio
         episodes.horizon = solvers::horizon_of_learners(*simulator.problem);
         const solvers::Policy policy =
             policy_named(simulator, imitation.policy, false, episodes.seed, memory_limit, planning);
-        return solvers::demonstrations(simulator, model, policy, episodes, stops);
+        const std::int64_t steps = solvers::steps_at_most(simulator, episodes);
+        Progress bar("playing " + imitation.policy,
+                     episodes.episodes * std::max<std::int64_t>(steps, 1), !quiet);
+        return solvers::demonstrations(simulator, model, policy, episodes,
+                                       {stops, [&](std::int64_t done) { bar.advance(done); }, {}});
     };
 }
 

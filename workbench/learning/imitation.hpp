@@ -19,10 +19,10 @@ struct Imitation {
 const solvers::OptionTable<Imitation>& imitation_option_table();
 
 // Plays it; empty where nothing is imitated. The simulator must outlive the result. seed: the
-// learner's. stops: whether to give up, which throws a Failure.
+// learner's. stops: whether to give up, which throws a Failure. quiet: without a progress bar.
 solvers::Demonstrate demonstrate(const rddl_simulator& simulator, const Imitation& imitation,
                                  std::uint64_t seed, std::int64_t memory_limit,
                                  const PlannerSettings& planning,
-                                 const std::function<bool()>& stops);
+                                 const std::function<bool()>& stops, bool quiet);
 
 }  // namespace rddlc::workbench

@@ -199,7 +199,7 @@ ExitStatus train_ppo(TrainPpoOptions options, const solvers::Ranks& ranks) {
     ppo.shortens_rollout = !ppo.names_rollout;
     const solvers::Demonstrate shown =
         demonstrate(simulator, imitation, ppo.seed, ppo.memory_limit,
-                    {.derivatives = problem.derivatives}, is_interrupted);
+                    {.derivatives = problem.derivatives}, is_interrupted, options.training.quiet);
     return run_training(options, simulator, solvers::ppo_trainee(simulator, ppo, ranks, shown),
                         ranks);
 }
