@@ -31,6 +31,6 @@ build_packages=(g++ cmake ninja-build antlr4 libantlr4-runtime-dev libcli11-dev 
     libeigen3-dev libutf8proc-dev nlohmann-json3-dev libcpp-httplib-dev libcairo2-dev libpng-dev libgif-dev
     fonts-dejavu-core pkg-config)
 # What the build of the tests needs besides, and what they need when they run.
-test_build_packages=(libgtest-dev libgmock-dev librandom123-dev libboost-dev clang python3 python3-dev python3-venv
+test_build_packages=(libgtest-dev libgmock-dev librandom123-dev libboost-dev clang lld python3 python3-dev python3-venv
     libopenmpi-dev openmpi-bin)
 test_packages=(ccache clang-format chromium neovim ffmpeg locales)

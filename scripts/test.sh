@@ -44,9 +44,11 @@ trap wait EXIT
 time_of packages
 
 step "2/4 build with sanitizers"
-# clang++ compiles in two thirds of the time of g++, and shows that it takes our sources without a warning.
+# clang++ compiles in two thirds of the time of g++, and shows that it takes our sources without a warning. lld links
+# sanitized programs, of up to 170 MB, in a fifth of the time of the default linker.
 cmake -S . -B build/sanitize-clang -G Ninja --log-level=WARNING -DRDDLC_BUILD_TESTS=ON -DRDDLC_WARNINGS_AS_ERRORS=ON \
-    -DRDDLC_SANITIZE=ON -DCMAKE_CXX_COMPILER=clang++ -DCMAKE_BUILD_TYPE=None -DCMAKE_CXX_FLAGS="-O0 -g1"
+    -DRDDLC_SANITIZE=ON -DCMAKE_CXX_COMPILER=clang++ -DCMAKE_BUILD_TYPE=None -DCMAKE_CXX_FLAGS="-O0 -g1" \
+    -DCMAKE_EXE_LINKER_FLAGS=-fuse-ld=lld
 cmake --build build/sanitize-clang --target sanitized_tests
 wait "$rest"
 time_of "sanitized build"

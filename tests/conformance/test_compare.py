@@ -3,6 +3,7 @@
 import tempfile
 import unittest
 from dataclasses import replace
+from functools import cache
 from pathlib import Path
 
 import numpy as np
@@ -17,6 +18,12 @@ PLAN = Plan(transitions=20, stride=5, draw_points=2)
 
 def example(name: str) -> Case:
     return next(case for case in example_cases() if case.problem == name)
+
+
+@cache
+def recorded(name: str) -> Recording:
+    """Nobody changes it, so all tests share it: recording is most of their time."""
+    return record(example(name), PLAN)
 
 
 def findings_against(recording: Recording, other: Case) -> Findings:
@@ -37,7 +44,7 @@ def findings_against(recording: Recording, other: Case) -> Findings:
 class CompareTest(unittest.TestCase):
     def assert_agrees(self, name: str):
         case = example(name)
-        findings = findings_against(record(case, PLAN), case)
+        findings = findings_against(recorded(name), case)
         self.assertEqual(findings.disagreements, [])
         self.assertGreater(findings.exact_values + len(findings.tests), 30)
 
@@ -49,7 +56,7 @@ class CompareTest(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             changed = Path(folder, "domain.rddl")
             changed.write_text(text.replace(old, new))
-            findings = findings_against(record(case, PLAN), replace(case, domain_path=changed))
+            findings = findings_against(recorded(name), replace(case, domain_path=changed))
         self.assertTrue(any(where in text for text in findings.disagreements), findings.disagreements)
 
     def test_agrees_with_itself(self):
@@ -77,7 +84,7 @@ class CompareTest(unittest.TestCase):
                               "echo(?b)  = Bernoulli(exp[-range-to(?b) / REACH]);", "joint")
 
     def test_takes_rounding_for_no_difference(self):
-        recording = record(example("network"), PLAN)
+        recording = recorded("network")
         problem = replace(recording.problem, random_reward=True)  # a constant where it might vary
         for point in recording.points:
             rounded = dict(point.outcomes)

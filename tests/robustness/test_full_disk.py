@@ -29,7 +29,7 @@ if [ "$shared" ]; then cat "$SIMULATOR" > "$output"; else echo object > "$output
 
 
 # The real one, which leaves out what takes it long.
-QUICK_COMPILER = 'exec c++ "$@" -O0\n'
+QUICK_COMPILER = 'exec c++ "$@" -O0 -DRDDL_LINKS_BATCHES\n'
 
 
 class FullDisk(CommandTest):
