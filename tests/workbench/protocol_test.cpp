@@ -283,10 +283,15 @@ TEST_F(Live, PlayAgainstServeIsWhatEvaluateDoes) {
 }
 
 TEST_F(Live, OneThatStallsOrSendsGarbageDoesNotStopOthers) {
-    const Descriptor silent = connect(), garbage = connect(), slow = connect();
+    const Descriptor silent = connect(), garbage = connect(), slow = connect(), blank = connect();
     send_some(garbage, "GET / HTTP/1.1\r\n\r\n");
     send_some(slow, "<session-req");
     EXPECT_EQ(play().returns.size(), 3u);
+    std::string told_of_blanks;
+    for (long received = 0; received >= 0 && told_of_blanks.empty();) {
+        send_some(blank, " ");
+        if (wait_to_read(blank, 20)) received = receive_some(blank, told_of_blanks);
+    }
     EXPECT_NE(rest_of(garbage).find("<error>the message is not XML of the protocol: text stands "
                                     "outside of elements</error>"),
               std::string::npos);
@@ -294,8 +299,33 @@ TEST_F(Live, OneThatStallsOrSendsGarbageDoesNotStopOthers) {
                                    "seconds</error>"),
               std::string::npos);
     EXPECT_NE(rest_of(slow).find("<error>"), std::string::npos);
+    EXPECT_NE(told_of_blanks.find("there was no"), std::string::npos) << "they begin nothing";
     stop();
     EXPECT_NE(told_.find("text stands outside of elements"), std::string::npos) << told_;
+}
+
+TEST_F(Live, AnswersOfManyMessagesAtOnceComeAsTheyAreRead) {
+    constexpr int rounds = 800;  // more bytes than a server holds for one client
+    std::string all = "<session-request><problem-name/><client-name/></session-request>";
+    for (int round = 0; round < rounds; ++round)
+        all +=
+            "<round-request><execute-policy>no</execute-policy></round-request>"
+            "<actions><action><action-name>repair</action-name><action-arg>lathe</action-arg>"
+            "<action-value>true</action-value></action><action><action-name>repair</action-name>"
+            "<action-arg>mill</action-arg><action-value>true</action-value></action></actions>";
+    const Descriptor socket = connect();
+    std::thread writer([&] {
+        for (std::string_view rest = all; !rest.empty();)
+            rest.remove_prefix(static_cast<std::size_t>(std::max(0L, send_some(socket, rest))));
+    });
+    std::string answers;
+    const std::string end = "</round-end>";
+    std::size_t at = 0;
+    for (int found = 0; found < rounds && receive_some(socket, answers) >= 0;)
+        for (std::size_t next; (next = answers.find(end, at)) != std::string::npos; ++found)
+            at = next + end.size();
+    writer.join();
+    EXPECT_GT(answers.size(), std::size_t{1} << 20);
 }
 
 TEST_F(Live, LongMessagesAreCutOff) {
