@@ -132,7 +132,7 @@ TEST_F(Solve, RefusesInASentence) {
     expect_part(complaint("--max-states 3"), "more than 3 states can be reached");
     expect_part(complaint("--max-actions 2"), "has more than 2 joint actions");
     expect_part(complaint("--memory-limit 50"), "one step may lead to takes more bytes than it");
-    expect_part(complaint("--memory-limit 500"), "reached so far, with 4 transitions, take more");
+    expect_part(complaint("--memory-limit 500"), "reached so far, with 5 transitions, take more");
     use(with(ladder, "Bernoulli(0.25)", "Uniform(0.0, 1.0) < 0.25"));
     expect_part(complaint(""), "the outcomes of Uniform are not listed one by one");
     use(with(work, "{ broken; }", "{ broken ^ Bernoulli(0.5); }"));

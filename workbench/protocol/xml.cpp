@@ -173,7 +173,8 @@ bool MessageFrames::scan(char byte) {
     return false;
 }
 
-// What is done with goes once for many bytes: a stream of blanks would take quadratic time else.
+// Bytes of messages that are over go many at once: one by one, a stream of blanks would take
+// quadratic time.
 void MessageFrames::add(std::string_view bytes) {
     buffer_.erase(0, begin_);
     scanned_ -= std::exchange(begin_, 0);
