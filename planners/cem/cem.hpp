@@ -74,6 +74,7 @@ class Cem : public Planner {
     void draw_streams(RandomStream& stream, std::size_t plans);
     void rank();
     void sort_best();
+    void find_best(std::size_t wanted);
     void sort_first(std::size_t count);
     void add_others();
     std::size_t elites() const;

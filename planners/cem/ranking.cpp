@@ -34,7 +34,7 @@ namespace {
 
 // Integers in the order of doubles, and back.
 constexpr std::uint64_t sign_bit = std::uint64_t{1} << 63;
-std::uint64_t ordered(double x) {
+constexpr std::uint64_t ordered(double x) {
     const auto bits = std::bit_cast<std::uint64_t>(x);
     return bits & sign_bit ? ~bits : bits | sign_bit;
 }
@@ -42,15 +42,24 @@ double from_ordered(std::uint64_t place) {
     return std::bit_cast<double>(place & sign_bit ? place & ~sign_bit : ~place);
 }
 
+constexpr std::uint64_t lowest = ordered(-std::numeric_limits<double>::infinity());
+constexpr std::uint64_t highest = ordered(std::numeric_limits<double>::infinity());
+
+// The search for a limit leaves its guess by longer and longer steps, until the limit lies between
+// two of them, and bisects then.
+std::uint64_t place_between(std::uint64_t low, std::uint64_t high, std::uint64_t step) {
+    const std::uint64_t half = (high - low) / 2;
+    if (low == lowest) return high - std::min(step, half);
+    if (high == highest) return low + std::min(step, half);
+    return low + half;
+}
+
 // A limit above which there are at least `wanted` values and, unless many are equal, few more.
-// It is -inf where fewer values than that are above -inf. The search leaves the guess by longer and
-// longer steps until the limit lies between two of them, and bisects then.
+// It is -inf where fewer values than that are above -inf.
 double limit_of_best(const PlanLoops& loops, std::span<const double> values, std::size_t wanted,
                      double guess) {
     constexpr std::size_t few = 8;
-    constexpr double infinity = std::numeric_limits<double>::infinity();
     constexpr std::uint64_t longest = std::uint64_t{1} << 62;
-    const std::uint64_t lowest = ordered(-infinity), highest = ordered(infinity);
     std::uint64_t low = lowest, high = highest, middle = ordered(guess);
     std::uint64_t step = std::uint64_t{1} << 46;  // about a hundredth of the guess
     while (high - low > 1) {
@@ -58,9 +67,7 @@ double limit_of_best(const PlanLoops& loops, std::span<const double> values, std
             loops.count_above(values.data(), values.size(), from_ordered(middle));
         (above < wanted ? high : low) = middle;
         if (above >= wanted && above <= wanted + few) break;
-        const std::uint64_t half = (high - low) / 2;
-        middle = low == lowest ? high - std::min(step, half) : low + std::min(step, half);
-        if (low != lowest && high != highest) middle = low + half;
+        middle = place_between(low, high, step);
         step = std::min(step, longest / 4) * 4;
     }
     return from_ordered(low);
@@ -74,14 +81,20 @@ void Cem::sort_best() {
         options_.weights == Weights::Mppi
             ? population_
             : std::max({elites(), static_cast<std::size_t>(options_.kept), most_compared});
-    if (wanted >= population_) {
+    if (wanted < population_) {
+        // Populations that follow each other are about as good.
+        limit_ = limit_of_best(loops_, values_, wanted, std::isfinite(limit_) ? limit_ : 0);
+        find_best(wanted);
+    } else {
+        limit_ = std::numeric_limits<double>::infinity();
         std::iota(order_.begin(), order_.end(), std::size_t{0});
         ordered_ = population_;
-        limit_ = std::numeric_limits<double>::infinity();
-        return sort_first(population_);
     }
-    // Populations that follow each other are about as good.
-    limit_ = limit_of_best(loops_, values_, wanted, std::isfinite(limit_) ? limit_ : 0);
+    sort_first(ordered_);
+}
+
+// Plans above the limit begin order_, and others follow until there are as many as wanted.
+void Cem::find_best(std::size_t wanted) {
     // The loop has no branches, and copies of members, which it need not read again.
     const double limit = limit_;
     const double* const values = values_.data();
@@ -95,7 +108,6 @@ void Cem::sort_best() {
     for (std::size_t c = 0; best < wanted; ++c)
         if (!(values[c] > limit)) order[best++] = c;
     ordered_ = best;
-    sort_first(ordered_);
 }
 
 // So many of order_, which are in the order of plans. Few are ordered by counting: a sort guesses

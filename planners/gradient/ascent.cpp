@@ -16,6 +16,11 @@ bool must_end(std::size_t step, const solvers::Stops* stops) {
     return step % steps_between_looks == 0 && solvers::is_stopped(stops);
 }
 
+// Adam also adds squares up, of which infinitely large ones would leave nan.
+bool can_be_squared(double derivative) {
+    return std::isfinite(derivative * derivative);
+}
+
 }  // namespace
 
 Ascent::Ascent(const ActionParameters& actions, solvers::StepDerivatives& derivatives,
@@ -138,7 +143,7 @@ void Ascent::move(AscendingPlan& plan, std::span<const double> gradient, double 
     const double mean_scale = 1 - std::pow(mean_decay, n);
     const double square_scale = 1 - std::pow(square_decay, n);
     for (std::size_t j = 0; j < gradient.size(); ++j) {
-        if (!std::isfinite(gradient[j])) continue;
+        if (!can_be_squared(gradient[j])) continue;
         plan.mean[j] += (1 - mean_decay) * (gradient[j] - plan.mean[j]);
         plan.square[j] += (1 - square_decay) * (gradient[j] * gradient[j] - plan.square[j]);
     }
@@ -147,7 +152,7 @@ void Ascent::move(AscendingPlan& plan, std::span<const double> gradient, double 
         std::copy_n(plan.square.begin() + static_cast<std::ptrdiff_t>(begin), count, row_.begin());
         actions_.share_scales(row_);
         for (std::size_t i = 0; i < count; ++i) {
-            if (!std::isfinite(gradient[begin + i])) continue;
+            if (!can_be_squared(gradient[begin + i])) continue;
             plan.parameters[begin + i] += rate * (plan.mean[begin + i] / mean_scale) /
                                           (std::sqrt(row_[i] / square_scale) + 1e-12);
         }

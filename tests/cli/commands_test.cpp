@@ -108,6 +108,14 @@ TEST_F(Program, ExplainsDiagnosticsAsTheCompilerDoes) {
     EXPECT_TRUE(run("--explain=list").out.starts_with("E0101: "));
 }
 
+TEST_F(Program, WritesTwoOutputsToTwoFiles) {
+    const Outcome outcome =
+        run("run domain.rddl instance.rddl --trace a.jsonl --explain-decisions ./a.jsonl");
+    EXPECT_EQ(outcome.status, 2);
+    expect_part(outcome.err, "two outputs would be written to './a.jsonl'");
+    EXPECT_FALSE(std::filesystem::exists(folder_ / "a.jsonl"));
+}
+
 TEST_F(Program, TakesSizesWithUnits) {
     const auto told = [&](const std::string& size) {
         return run("info domain.rddl instance.rddl --memory-limit " + size).err;

@@ -131,11 +131,14 @@ TEST_F(Solve, RefusesInASentence) {
     use(ladder);
     expect_part(complaint("--max-states 3"), "more than 3 states can be reached");
     expect_part(complaint("--max-actions 2"), "has more than 2 joint actions");
-    expect_part(complaint("--memory-limit 100"), "take more bytes than they may");
+    expect_part(complaint("--memory-limit 50"), "one step may lead to takes more bytes than it");
+    expect_part(complaint("--memory-limit 500"), "reached so far, with 5 transitions, take more");
     use(with(ladder, "Bernoulli(0.25)", "Uniform(0.0, 1.0) < 0.25"));
     expect_part(complaint(""), "the outcomes of Uniform are not listed one by one");
     use(with(work, "{ broken; }", "{ broken ^ Bernoulli(0.5); }"));
     expect_part(complaint(""), "a termination, an invariant or a precondition draws at random");
+    use(with(work, "termination {", "action-preconditions { wild; }; termination {"));
+    expect_part(complaint(""), "each action may lead to a fault");
     use(ladder);
     EXPECT_EQ(run("solve p.rddl --out a.txt").status, 2);
 }

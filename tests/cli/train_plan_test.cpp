@@ -30,6 +30,37 @@ TEST_F(TrainPlan, notes_that_no_time_finds_the_default_actions) {
     expect_part(outcome.err, "each action of the plan is the default");
 }
 
+TEST_F(TrainPlan, RefusesAnEpisodeThatIsOverAtOnce) {
+    write_file(
+        folder_ / "domain.rddl",
+        "domain d { pvariables { depth : { state-fluent, real, default = 0.0 };\n"
+        "  fill : { action-fluent, real, default = 0.0 }; };\n"
+        "  cpfs { depth' = depth + fill; }; reward = depth; termination { depth == 0; }; }\n");
+    write_file(folder_ / "instance.rddl",
+               "non-fluents n { domain = d; }\n"
+               "instance i { domain = d; non-fluents = n; horizon = 6; discount = 1.0; }\n");
+    const Outcome outcome = plan(" --out plan.jsonl --iterations 2");
+    EXPECT_EQ(outcome.status, 1);
+    expect_part(outcome.err, "the episode is over before its first action");
+    EXPECT_FALSE(has_plan());
+}
+
+// Adam squares them.
+TEST_F(TrainPlan, LeavesOutDerivativesWhoseSquaresAreInfinite) {
+    write_file(folder_ / "domain.rddl",
+               "domain d { pvariables { depth : { state-fluent, real, default = 0.0 };\n"
+               "  fill : { action-fluent, real, default = 0.0 }; };\n"
+               "  cpfs { depth' = depth + fill; }; reward = 1e160 * depth;\n"
+               "  action-preconditions { fill >= 0; fill <= 1; }; }\n");
+    write_file(folder_ / "instance.rddl",
+               "non-fluents n { domain = d; }\n"
+               "instance i { domain = d; non-fluents = n; horizon = 6; discount = 1.0; }\n");
+    const Outcome outcome = plan(" --out plan.jsonl --iterations 5 --std=rddlc");
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    expect_part(outcome.out, "plan.jsonl");
+    EXPECT_EQ(read_file(folder_ / "plan.jsonl").find("nan"), std::string::npos);
+}
+
 // A plan pumps whatever the water is, so that its steps break the precondition in some episodes.
 TEST_F(TrainPlan, counts_steps_that_violate_preconditions) {
     write_file(folder_ / "domain.rddl",

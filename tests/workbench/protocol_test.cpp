@@ -253,8 +253,10 @@ class Live : public testing::Test {
         ServerConnection connection(connect(), 20, {});
         const SessionInit session = connection.begin_session("", "test");
         EXPECT_EQ(session.task, "the text");
-        return play_session(connection, session, simulator, solvers::random_policy(simulator, 0),
-                            {});
+        Played played;
+        play_session(connection, session, simulator, solvers::random_policy(simulator, 0), {},
+                     played);
+        return played;
     }
 
     ServedProblem problem_{*tiny::simulator(), "the text"};
@@ -283,10 +285,15 @@ TEST_F(Live, PlayAgainstServeIsWhatEvaluateDoes) {
 }
 
 TEST_F(Live, OneThatStallsOrSendsGarbageDoesNotStopOthers) {
-    const Descriptor silent = connect(), garbage = connect(), slow = connect();
+    const Descriptor silent = connect(), garbage = connect(), slow = connect(), blank = connect();
     send_some(garbage, "GET / HTTP/1.1\r\n\r\n");
     send_some(slow, "<session-req");
     EXPECT_EQ(play().returns.size(), 3u);
+    std::string told_of_blanks;
+    for (long received = 0; received >= 0 && told_of_blanks.empty();) {
+        send_some(blank, " ");
+        if (wait_to_read(blank, 20)) received = receive_some(blank, told_of_blanks);
+    }
     EXPECT_NE(rest_of(garbage).find("<error>the message is not XML of the protocol: text stands "
                                     "outside of elements</error>"),
               std::string::npos);
@@ -294,8 +301,33 @@ TEST_F(Live, OneThatStallsOrSendsGarbageDoesNotStopOthers) {
                                    "seconds</error>"),
               std::string::npos);
     EXPECT_NE(rest_of(slow).find("<error>"), std::string::npos);
+    EXPECT_NE(told_of_blanks.find("there was no"), std::string::npos) << "they begin nothing";
     stop();
     EXPECT_NE(told_.find("text stands outside of elements"), std::string::npos) << told_;
+}
+
+TEST_F(Live, AnswersOfManyMessagesAtOnceComeAsTheyAreRead) {
+    constexpr int rounds = 800;  // more bytes than a server holds for one client
+    std::string all = "<session-request><problem-name/><client-name/></session-request>";
+    for (int round = 0; round < rounds; ++round)
+        all +=
+            "<round-request><execute-policy>no</execute-policy></round-request>"
+            "<actions><action><action-name>repair</action-name><action-arg>lathe</action-arg>"
+            "<action-value>true</action-value></action><action><action-name>repair</action-name>"
+            "<action-arg>mill</action-arg><action-value>true</action-value></action></actions>";
+    const Descriptor socket = connect();
+    std::thread writer([&] {
+        for (std::string_view rest = all; !rest.empty();)
+            rest.remove_prefix(static_cast<std::size_t>(std::max(0L, send_some(socket, rest))));
+    });
+    std::string answers;
+    const std::string end = "</round-end>";
+    std::size_t at = 0;
+    for (int found = 0; found < rounds && receive_some(socket, answers) >= 0;)
+        for (std::size_t next; (next = answers.find(end, at)) != std::string::npos; ++found)
+            at = next + end.size();
+    writer.join();
+    EXPECT_GT(answers.size(), std::size_t{1} << 20);
 }
 
 TEST_F(Live, LongMessagesAreCutOff) {
@@ -327,7 +359,7 @@ TEST_F(Live, AnotherProblemIsRefused) {
 // ------------------------------------------------------------------------ a server like rddlsim
 
 // Plays against the bytes of a server, however they are cut.
-Played play_against(const std::string& bytes) {
+void play_against(const std::string& bytes, Played& played) {
     std::array<int, 2> ends{};
     EXPECT_EQ(socketpair(AF_UNIX, SOCK_STREAM, 0, ends.data()), 0);
     const Descriptor server(ends[1]);
@@ -336,12 +368,13 @@ Played play_against(const std::string& bytes) {
     shutdown(server.get(), SHUT_WR);
     const rddl_simulator& simulator = *tiny::simulator();
     const SessionInit session = connection.begin_session("tiny", "test");
-    return play_session(connection, session, simulator, solvers::noop_policy(simulator), {});
+    play_session(connection, session, simulator, solvers::noop_policy(simulator), {}, played);
 }
 
 std::string complaint_of_play(const std::string& bytes) {
+    Played played;
     try {
-        play_against(bytes);
+        play_against(bytes, played);
     } catch (const Failure& failure) {
         return failure.what();
     }
@@ -377,18 +410,31 @@ const std::string round_of_rddlsim = message(
     "</round-init>");
 
 TEST(Rddlsim, IsPlayed) {
-    const Played played = play_against(
+    Played played;
+    play_against(
         init_of_rddlsim + round_of_rddlsim + turn_of_rddlsim(1) + turn_of_rddlsim(2) +
-        message("<round-end><instance-name>tiny</instance-name><client-name>test</client-name>"
-                "<round-num>0</round-num><round-reward>-2.5E-5</round-reward><turns-used>2"
-                "</turns-used><time-left>58000</time-left><immediate-reward>0.0"
-                "</immediate-reward></round-end>") +
-        message("<session-end><instance-name>tiny</instance-name><total-reward>-2.5E-5"
-                "</total-reward><rounds-used>1</rounds-used><client-name>test</client-name>"
-                "<session-id>1</session-id><time-left>57990</time-left></session-end>"));
+            message("<round-end><instance-name>tiny</instance-name><client-name>test</client-name>"
+                    "<round-num>0</round-num><round-reward>-2.5E-5</round-reward><turns-used>2"
+                    "</turns-used><time-left>58000</time-left><immediate-reward>0.0"
+                    "</immediate-reward></round-end>") +
+            message("<session-end><instance-name>tiny</instance-name><total-reward>-2.5E-5"
+                    "</total-reward><rounds-used>1</rounds-used><client-name>test</client-name>"
+                    "<session-id>1</session-id><time-left>57990</time-left></session-end>"),
+        played);
     EXPECT_EQ(played.returns, std::vector<double>{-2.5e-5});
     EXPECT_EQ(played.total, -2.5e-5);
     EXPECT_EQ(played.turns, 2);
+}
+
+TEST(Rddlsim, RoundsThatAreOverCountWhereASessionEndsEarly) {
+    const std::string end =
+        message("<round-end><round-num>0</round-num><round-reward>-2.5</round-reward></round-end>");
+    Played played;
+    EXPECT_THROW(
+        play_against(init_of_rddlsim + round_of_rddlsim + turn_of_rddlsim(1) + end, played),
+        Failure);
+    EXPECT_EQ(played.returns, std::vector<double>{-2.5});
+    EXPECT_EQ(played.total, -2.5);
 }
 
 TEST(Rddlsim, WhatItDoesNotSayIsMissed) {
@@ -396,6 +442,10 @@ TEST(Rddlsim, WhatItDoesNotSayIsMissed) {
               "the server does not say what mode is");
     EXPECT_EQ(complaint_of_play(init_of_rddlsim + round_of_rddlsim),
               "the server has closed the connection before the session was over");
+    for (const int number : {0, 2'000'000'000})
+        EXPECT_TRUE(complaint_of_play(init_of_rddlsim + round_of_rddlsim + turn_of_rddlsim(number))
+                        .starts_with("<turn-num> of <turn> is "))
+            << number;
     EXPECT_EQ(complaint_of_play(message("<error>no</error>")), "the server refuses: no");
     EXPECT_EQ(complaint_of_play(message("<turn/>")),
               "the server answers <turn>, not <session-init>");

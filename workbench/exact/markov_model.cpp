@@ -18,6 +18,7 @@ namespace rddlc::workbench {
 namespace {
 
 constexpr std::size_t states_at_once = 2048;
+constexpr std::size_t share_of_expansions = 4;  // of the memory, its reciprocal
 
 // Where one action leads to from one state, equal states merged.
 struct Choice {
@@ -25,7 +26,17 @@ struct Choice {
     double reward = 0;
     std::vector<std::byte> next;  // records
     std::vector<double> probability;
+
+    std::size_t memory() const {
+        return next.capacity() + probability.capacity() * sizeof probability[0];
+    }
 };
+
+std::size_t memory_of(const std::vector<Choice>& choices) {
+    std::size_t bytes = 0;
+    for (const Choice& choice : choices) bytes += choice.memory();
+    return bytes;
+}
 
 // The choices of one state.
 class Expansion {
@@ -40,22 +51,35 @@ class Expansion {
 
     void expand(const std::byte* state, std::vector<Choice>& choices) {
         choices.clear();
-        const std::size_t count = action_size_ == 0 ? 1 : actions_.size() / action_size_;
-        for (const bool asks : {true, false}) {
-            for (std::uint32_t a = 0; a < count; ++a) {
-                const std::byte* const action = actions_.data() + a * action_size_;
-                if (asks && !outcomes_.is_legal(state, action)) continue;
-                choices.emplace_back();
-                choices.back().action = a;
-                if (!play(state, action, choices.back())) choices.pop_back();
-            }
-            if (!choices.empty()) return;
+        find_legal(state);
+        // Where no action is legal, one of them is taken nevertheless.
+        const bool asks = std::ranges::find(legal_, true) != legal_.end();
+        for (std::uint32_t a = 0; a < legal_.size(); ++a) {
+            if (asks && !legal_[a]) continue;
+            choices.emplace_back();
+            choices.back().action = a;
+            if (!play(state, actions_.data() + a * action_size_, choices.back()))
+                choices.pop_back();
+            require_memory(memory_of(choices));
         }
-        throw Failure("in a state that can be reached each action may lead to a fault",
-                      "rddl evaluate --policy random shows the fault");
+        if (choices.empty())
+            throw Failure("in a state that can be reached each action may lead to a fault",
+                          "rddl evaluate --policy random shows the fault");
     }
 
   private:
+    void find_legal(const std::byte* state) {
+        legal_.resize(action_size_ == 0 ? 1 : actions_.size() / action_size_);
+        for (std::size_t a = 0; a < legal_.size(); ++a)
+            legal_[a] = outcomes_.is_legal(state, actions_.data() + a * action_size_);
+    }
+
+    void require_memory(std::size_t bytes) const {
+        if (limits_.memory > 0 && static_cast<std::int64_t>(bytes) > limits_.memory)
+            throw Failure("what one step may lead to takes more bytes than it may",
+                          "allow more by --memory-limit");
+    }
+
     // False where an outcome faults.
     bool play(const std::byte* state, const std::byte* action, Choice& choice) {
         records_.clear();
@@ -67,7 +91,10 @@ class Expansion {
                 throw Failure(fmt::format("a step has more than {} combinations of what it draws",
                                           limits_.outcomes),
                               "allow more by --max-outcomes");
-            if (combinations % 4096 == 0) give_up_if_interrupted("solving");
+            if (combinations % 4096 == 0) {
+                give_up_if_interrupted("solving");
+                require_memory(records_.capacity());
+            }
             is_sound = !(outcome.causes & RDDL_FAULTED) && std::isfinite(outcome.reward);
             choice.reward += outcome.probability * outcome.reward;
             if (outcome.causes == RDDL_RUNNING) {
@@ -104,6 +131,7 @@ class Expansion {
     std::size_t state_size_, action_size_;
     const std::vector<std::byte>& actions_;
     const ModelLimits& limits_;
+    std::vector<bool> legal_;  // each action, in the state
     std::vector<std::byte> records_;
     std::vector<double> probabilities_;
     std::vector<std::uint32_t> order_;
@@ -162,7 +190,7 @@ class Builder {
 
     // The states from `first` on, at most `end`: computed side by side, and added one by one.
     void expand(StateNumber first, StateNumber end) {
-        block_ = std::min<std::size_t>(states_at_once, end - first);
+        block_ = std::min<std::size_t>(room_, end - first);
         bar_.expect(model_.states.count());
         constexpr std::size_t together = 16;
         const std::size_t parts = (block_ + together - 1) / together;
@@ -175,8 +203,20 @@ class Builder {
                 bar_.advance();
             }
         });
+        find_room();
         for (std::size_t k = 0; k < block_; ++k) add(expanded_[k]);
         require_limits();
+    }
+
+    // How many states the next block may have, so that what they lead to fits into memory before
+    // it is added to the model. Nothing is known of the first state, and little of the next ones.
+    void find_room() {
+        for (std::size_t k = 0; k < block_; ++k)
+            largest_ = std::max(largest_, memory_of(expanded_[k]));
+        room_ = std::min(states_at_once, 2 * room_);
+        if (limits_.memory <= 0) return;
+        const std::size_t share = static_cast<std::size_t>(limits_.memory) / share_of_expansions;
+        room_ = std::clamp<std::size_t>(share / largest_, 1, room_);
     }
 
     void add(const std::vector<Choice>& choices) {
@@ -212,6 +252,7 @@ class Builder {
     std::vector<std::vector<Choice>> expanded_;
     std::size_t block_ = 0;
     Progress bar_{"listing states", 1};  // of those that are known by now
+    std::size_t room_ = 1, largest_ = 1;  // states of a block, and bytes of what one leads to
 };
 
 double values_of(const rddl_problem& problem, const rddl_fluent& fluent, std::int64_t grounding) {

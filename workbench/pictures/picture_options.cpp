@@ -43,10 +43,11 @@ void require_one_on_standard_output(const PictureOptions& options, std::string_v
                       usage_error);
 }
 
-void require_different_files(const PictureOptions& options, const std::string& trace) {
+void require_different_files(const PictureOptions& options, std::vector<std::string> others) {
     UsedFiles named;
-    for (const std::string& path :
-         {trace, options.gif, options.video, options.png, options.svg, options.html}) {
+    others.insert(others.end(),
+                  {options.gif, options.video, options.png, options.svg, options.html});
+    for (const std::string& path : others) {
         if (path.empty() || path == "-") continue;
         if (named.contain(path))
             throw Failure(fmt::format("two outputs would be written to '{}'", path), {},

@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace rddlc::workbench {
 
@@ -37,8 +38,8 @@ struct PictureOptions {
 // Throws a Failure if more than one thing is written to standard output, or pictures to a terminal.
 // `other`: an option that also writes there; empty: no such option.
 void require_one_on_standard_output(const PictureOptions& options, std::string_view other = {});
-// Throws a Failure where two outputs have the same file, the trace of `rddl run` included.
-void require_different_files(const PictureOptions& options, const std::string& trace = {});
+// Throws a Failure where two outputs have the same file; `others` are no pictures, such as a trace.
+void require_different_files(const PictureOptions& options, std::vector<std::string> others = {});
 
 // The ending of a file's name, in small letters: ".mp4" of a.MP4.
 std::string extension_of(const std::filesystem::path& file);

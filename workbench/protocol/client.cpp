@@ -2,6 +2,7 @@
 
 #include "solvers/batches/batch.hpp"
 #include "support/base64.hpp"
+#include "terminal/interrupt.hpp"
 
 #include <fmt/format.h>
 
@@ -28,9 +29,10 @@ double real_of(const Element& message, std::string_view name) {
     return value;
 }
 
-std::int64_t count_of(const Element& message, std::string_view name) {
+std::int64_t count_of(const Element& message, std::string_view name, double least) {
+    constexpr double most = 1e9;
     const double value = real_of(message, name);
-    if (value >= 0 && value <= 1e15) return static_cast<std::int64_t>(value);
+    if (value >= least && value <= most) return static_cast<std::int64_t>(value);
     throw BadMessage(fmt::format("<{}> of <{}> is {}", name, message.name, value));
 }
 
@@ -52,7 +54,7 @@ class Round {
     // The element that answers a turn.
     std::string act(const Element& turn) {
         const rddl_problem& problem = *simulator_.problem;
-        const std::int64_t step = count_of(turn, "turn-num") - 1;
+        const std::int64_t step = count_of(turn, "turn-num", 1) - 1;
         if (!problem.partially_observed) take_state(turn, step);
         const auto* const defaults = static_cast<const std::byte*>(problem.default_action);
         std::vector<std::byte> action(defaults, defaults + problem.action_size);
@@ -119,7 +121,8 @@ Element ServerConnection::next() {
             if (message.name != "resource-notification") return message;
             continue;
         }
-        if (stops_ && stops_()) throw Failure("interrupted while the server was thinking");
+        if (stops_ && stops_())
+            throw Failure("interrupted before the session was over", {}, interrupted_status());
         if (std::chrono::duration<double>(Clock::now() - begin).count() > patience_)
             throw Failure(fmt::format("the server has said nothing for {} seconds", patience_));
         if (!wait_to_read(socket_, wake_interval)) continue;
@@ -137,7 +140,7 @@ SessionInit ServerConnection::begin_session(const std::string& problem, const st
     if (answer.name != "session-init")
         throw BadMessage(fmt::format("the server answers <{}>, not <session-init>", answer.name));
     SessionInit session;
-    session.rounds = count_of(answer, "num-rounds");
+    session.rounds = count_of(answer, "num-rounds", 0);
     session.seconds = real_of(answer, "time-allowed") / 1000;
     if (const Element* const task = answer.child("task")) {
         auto text = base64_decoded(task->text);
@@ -147,19 +150,18 @@ SessionInit ServerConnection::begin_session(const std::string& problem, const st
     return session;
 }
 
-Played play_session(ServerConnection& server, const SessionInit& session,
-                    const rddl_simulator& simulator, const solvers::Policy& policy,
-                    const PlayOptions& options) {
+void play_session(ServerConnection& server, const SessionInit& session,
+                  const rddl_simulator& simulator, const solvers::Policy& policy,
+                  const PlayOptions& options, Played& played) {
     const rddl_problem& problem = *simulator.problem;
     const ProtocolFluents actions(problem, RDDL_ACTION), states(problem, RDDL_STATE);
-    Played played;
     while (true) {
         if (static_cast<std::int64_t>(played.returns.size()) < session.rounds)
             server.send("<round-request><execute-policy>yes</execute-policy></round-request>");
         Element message = server.next();
         if (message.name == "session-end") {
             played.total = real_of(message, "total-reward");
-            return played;
+            return;
         }
         if (message.name != "round-init")
             throw BadMessage(fmt::format("the server sends <{}>, not <round-init>", message.name));
@@ -172,6 +174,7 @@ Played play_session(ServerConnection& server, const SessionInit& session,
         if (message.name != "round-end")
             throw BadMessage(fmt::format("the server sends <{}>, not <round-end>", message.name));
         played.returns.push_back(real_of(message, "round-reward"));
+        played.total += played.returns.back();
         if (options.round_ended) options.round_ended(played.returns.back());
     }
 }

@@ -53,14 +53,15 @@ struct PlayOptions {
 
 struct Played {
     std::vector<double> returns;  // of the rounds, as the server counts them: discounted
-    double total = 0;             // that the server ended with
+    double total = 0;             // that the server ends with; the sum of the rounds before that
     std::int64_t turns = 0;
 };
 
 // Plays the rounds of a session that has begun. The states are the server's; the policy sees them
-// in a batch of `simulator`. Throws a Failure where the problems differ.
-Played play_session(ServerConnection& server, const SessionInit& session,
-                    const rddl_simulator& simulator, const solvers::Policy& policy,
-                    const PlayOptions& options);
+// in a batch of `simulator`. Throws a Failure where the problems differ or the session ends early;
+// `played` then has the rounds that are over.
+void play_session(ServerConnection& server, const SessionInit& session,
+                  const rddl_simulator& simulator, const solvers::Policy& policy,
+                  const PlayOptions& options, Played& played);
 
 }  // namespace rddlc::workbench

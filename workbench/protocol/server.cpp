@@ -36,7 +36,7 @@ struct ProtocolServer::Client {
     MessageFrames frames;
     ServerSession session;
     std::string output;    // that is not sent yet
-    double waiting_since;  // for what the client owes
+    double waiting_since;  // the client has owed something
     bool is_last_output = false, is_closed = false;
 
     // Whether the client has to do something at once: begin, finish a message, read, or leave.
@@ -45,6 +45,9 @@ struct ProtocolServer::Client {
         return !session.has_begun() || session.is_over() || frames.is_within_message() ||
                !output.empty();
     }
+    // Whether there is room for answers. Some are ten thousand times as long as what they answer.
+    bool takes_more() const { return !is_closed && !is_last_output && output.size() < most_unread; }
+    bool can_answer() const { return takes_more() && frames.has_more(); }
 };
 
 ProtocolServer::ProtocolServer(const ServedProblem& problem, ServerOptions options)
@@ -70,11 +73,12 @@ void ProtocolServer::run(const std::function<bool()>& stops) {
 void ProtocolServer::wait() const {
     std::vector<pollfd> all{{listener_.get(), POLLIN, 0}};
     for (const auto& client : clients_) {
-        const bool reads = client->output.size() < most_unread && !client->is_last_output;
-        const int events = (reads ? POLLIN : 0) | (client->output.empty() ? 0 : POLLOUT);
+        const int events =
+            (client->takes_more() ? POLLIN : 0) | (client->output.empty() ? 0 : POLLOUT);
         all.push_back({client->socket.get(), static_cast<short>(events), 0});
     }
-    poll(all.data(), static_cast<nfds_t>(all.size()), poll_interval);
+    const bool is_busy = std::ranges::any_of(clients_, &Client::can_answer);
+    poll(all.data(), static_cast<nfds_t>(all.size()), is_busy ? 0 : poll_interval);
 }
 
 void ProtocolServer::accept_clients() {
@@ -89,7 +93,8 @@ void ProtocolServer::accept_clients() {
 }
 
 void ProtocolServer::serve(Client& client) {
-    if (!client.is_last_output && client.output.size() < most_unread) receive(client);
+    if (client.takes_more() && !client.frames.has_more()) receive(client);
+    answer_some(client);
     look_at_clock(client);
     send(client);
 }
@@ -101,17 +106,17 @@ void ProtocolServer::receive(Client& client) {
         client.is_closed = true;
         return;
     }
-    if (count == 0) return;
-    if (!client.frames.is_within_message()) client.waiting_since = now();
     client.frames.add(bytes);
-    answer_all(client);
 }
 
-void ProtocolServer::answer_all(Client& client) {
+// Answers as much as has room, and leaves the rest until that is sent.
+void ProtocolServer::answer_some(Client& client) {
     try {
-        while (const auto message = client.frames.next()) {
+        while (client.takes_more()) {
+            const auto message = client.frames.next();
+            if (!message) return;
+            if (!client.session.is_over()) client.waiting_since = now();
             client.output += client.session.answer(parse_element(*message));
-            client.waiting_since = now();
             note(client);
         }
     } catch (const BadMessage& error) {
@@ -141,7 +146,8 @@ void ProtocolServer::look_at_clock(Client& client) {
         client.waiting_since = now();
         note(client);
     }
-    if (!client.owes() || now() - client.waiting_since <= options_.patience) return;
+    if (!client.owes()) client.waiting_since = now();
+    if (now() - client.waiting_since <= options_.patience) return;
     const bool is_done = client.session.is_over() && client.output.empty();
     if (is_done || client.is_last_output || !client.output.empty()) {
         if (!is_done && options_.tell)

@@ -43,7 +43,7 @@ class ProtocolServer {
     void wait() const;
     void serve(Client& client);
     void receive(Client& client);
-    void answer_all(Client& client);
+    void answer_some(Client& client);
     void refuse(Client& client, const std::string& why);
     void send(Client& client);
     void look_at_clock(Client& client);

@@ -173,24 +173,24 @@ bool MessageFrames::scan(char byte) {
     return false;
 }
 
+// Bytes of messages that are over go many at once: one by one, a stream of blanks would take
+// quadratic time.
+void MessageFrames::add(std::string_view bytes) {
+    buffer_.erase(0, begin_);
+    scanned_ -= std::exchange(begin_, 0);
+    buffer_ += bytes;
+}
+
 std::optional<std::string> MessageFrames::next() {
-    while (scanned_ < buffer_.size()) {
-        const char byte = buffer_[scanned_++];
-        if (scan(byte)) {
-            std::string message = buffer_.substr(0, scanned_);
-            buffer_.erase(0, std::exchange(scanned_, 0));
-            is_open_ = false;
-            return message;
-        }
-        if (depth_ == 0 && !is_in_tag_) {
-            // Blanks, zero bytes and headers between messages are dropped at once.
-            buffer_.erase(0, std::exchange(scanned_, 0));
-            is_open_ = false;
-            continue;
-        }
-        is_open_ = true;
-        if (scanned_ > longest_)
+    while (has_more()) {
+        const bool is_whole = scan(buffer_[scanned_++]);
+        // Blanks, zero bytes and headers between messages are dropped.
+        is_open_ = !is_whole && (depth_ > 0 || is_in_tag_);
+        if (is_open_ && scanned_ - begin_ > longest_)
             throw BadMessage(fmt::format("the message is longer than {} bytes", longest_));
+        if (is_open_) continue;
+        const std::size_t begin = std::exchange(begin_, scanned_);
+        if (is_whole) return buffer_.substr(begin, scanned_ - begin);
     }
     return std::nullopt;
 }

@@ -41,12 +41,14 @@ class MessageFrames {
   public:
     explicit MessageFrames(std::size_t longest) : longest_(longest) {}
 
-    void add(std::string_view bytes) { buffer_ += bytes; }
+    void add(std::string_view bytes);
     // The next whole message, if there is one. Throws a BadMessage where the bytes cannot be the
     // beginning of a message, or where it is longer than `longest` bytes.
     std::optional<std::string> next();
     // Whether a message has begun that has not ended.
     bool is_within_message() const { return is_open_; }
+    // Whether next() has not looked at all bytes.
+    bool has_more() const { return scanned_ < buffer_.size(); }
 
   private:
     bool scan(char byte);
@@ -55,8 +57,8 @@ class MessageFrames {
 
     std::size_t longest_;
     std::string buffer_;
-    std::size_t scanned_ = 0;  // of the buffer
-    std::size_t depth_ = 0;    // of elements that are open
+    std::size_t begin_ = 0, scanned_ = 0;  // of the message, in the buffer
+    std::size_t depth_ = 0;                // of elements that are open
     bool is_open_ = false, is_in_tag_ = false;
     std::size_t tag_length_ = 0;
     char first_ = 0, last_ = 0;  // of the tag

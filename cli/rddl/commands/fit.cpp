@@ -54,8 +54,8 @@ void print_fit(const Fit& found) {
     for (const FittedParameter& each : found.parameters)
         print("{:<24} {:>14.8g} {:>14.8g} {:>12.3g}\n", each.name, each.start, each.value,
               each.error);
-    print("{} steps, {} iterations; error {:.4g}, before {:.4g}\n", found.steps, found.iterations,
-          found.error_after, found.error_before);
+    print("{} steps, {} iteration{}; error {:.4g}, before {:.4g}\n", found.steps, found.iterations,
+          found.iterations == 1 ? "" : "s", found.error_after, found.error_before);
     if (!found.has_converged)
         print("the search was ended by --iterations {}: more may fit better\n", found.iterations);
 }

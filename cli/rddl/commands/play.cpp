@@ -143,12 +143,21 @@ ExitStatus play(PlayCommandOptions options) {
                                                 options.problem.memory_limit, options.planning);
     Progress bar(options.policy, session.rounds, !options.json);
     const PlayOptions playing{options.seed, [&](double) { bar.advance(); }, is_interrupted};
-    const Played played = play_session(server, session, simulator, policy, playing);
-    explanations.write(options.policy);
-    explanations.finish();
-    if (options.json || options.planning.explanations != "-")
-        report(played, *simulator.problem, options,
-               std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
+    Played played;
+    const auto finish = [&] {
+        explanations.write(options.policy);
+        explanations.finish();
+        if (options.json || options.planning.explanations != "-")
+            report(played, *simulator.problem, options,
+                   std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
+    };
+    try {
+        play_session(server, session, simulator, policy, playing, played);
+    } catch (const Failure&) {
+        if (!played.returns.empty()) finish();  // what is over counts
+        throw;
+    }
+    finish();
     return success;
 }
 

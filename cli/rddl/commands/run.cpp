@@ -180,7 +180,6 @@ void require_drawn_episode(const RunOptions& options) {
     require_one_on_standard_output(options.pictures, options.json           ? "--json"
                                                      : options.trace == "-" ? "--trace -"
                                                                             : "");
-    require_different_files(options.pictures, options.trace);
 }
 
 // The name of the episode in titles.
@@ -194,6 +193,8 @@ ExitStatus run(const RunOptions& options) {
         return success;
     }
     if (options.pictures.any()) require_drawn_episode(options);
+    require_different_files(options.pictures,
+                            {options.trace, options.rollouts.planning.explanations});
     ProblemFiles files = options.problem.files();
     files.policy = options.policy_file;
     const LoadedProblem problem = load_problem(files, options.load);

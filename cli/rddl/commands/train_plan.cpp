@@ -2,6 +2,7 @@
 #include "commands/commands.hpp"
 #include "commands/options.hpp"
 #include "formats/line_stream.hpp"
+#include "formats/number_text.hpp"
 #include "formats/trace.hpp"
 #include "learning/learned_policy.hpp"
 #include "rollouts/evaluation.hpp"
@@ -97,7 +98,7 @@ void report(const rddl_simulator& simulator, const TrainPlanOptions& options,
         if (is_interrupted()) return;
         const Evaluation found = evaluate(simulator, policy, episodes, false, true);
         if (is_interrupted()) return;  // these are not all episodes
-        print("{:<30} {:>14.6g}\n", policy, found.summary.undiscounted_return.mean);
+        print("{:<30} {:>14}\n", policy, number_text(found.summary.undiscounted_return.mean));
         if (found.summary.illegal_actions > 0)
             tell("rddl: warning: {} of {} steps of '{}' violate preconditions\n",
                  found.summary.illegal_actions, found.steps, policy);
@@ -150,6 +151,8 @@ ExitStatus train_plan(const TrainPlanOptions& options) {
                      plan.count(lines);
                  },
                  false, {});
+    if (plan.steps == 0)
+        throw Failure("the episode is over before its first action: there is nothing to plan");
     trace.finish();
     if (plan.active == 0)
         tell(
@@ -160,9 +163,10 @@ ExitStatus train_plan(const TrainPlanOptions& options) {
              plan.steps);
         return interrupted_status();
     }
-    print("mean returns{}:\n", simulator.problem->stochastic
-                                   ? fmt::format(" of {} episodes", options.episodes)
-                                   : std::string());
+    print("mean returns{}:\n",
+          simulator.problem->stochastic
+              ? fmt::format(" of {} episode{}", options.episodes, options.episodes == 1 ? "" : "s")
+              : std::string());
     report(simulator, options, rollouts);
     if (!is_interrupted()) return success;
     tell("rddl: interrupted before all was evaluated; '{}' holds the plan\n", options.out);
