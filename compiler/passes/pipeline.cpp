@@ -52,6 +52,7 @@
 #include "passes/lanes/unroll_rows.hpp"
 #include "passes/lanes/visit_affected.hpp"
 #include "passes/lanes/visit_chosen.hpp"
+#include "passes/sharing/pair_angles.hpp"
 #include "passes/sharing/remove_unused_buffers.hpp"
 #include "passes/sharing/share_across_definitions.hpp"
 #include "passes/sharing/share_subexpressions.hpp"
@@ -298,11 +299,17 @@ constexpr Pass in_order[] = {
      "an exists or forall leaves out the conditions that it does not change",
      {"count_bits", "compare_roots"},
      "the passes above need whole conditions, and make their final form"},
+    {"pair_angles",
+     Phase::Sharing,
+     pair_angles,
+     "the sine and the cosine of an angle are computed in one loop",
+     {"factor_quantifiers"},
+     "expressions have their final form, so that equal angles are equal"},
     {"share_across_definitions",
      Phase::Sharing,
      share_across_definitions,
      "expressions that several CPFs compute are computed once",
-     {"count_bits", "factor_quantifiers"},
+     {"factor_quantifiers", "pair_angles"},
      "expressions have their final form, so that equal ones are equal"},
     {"separate_counts",
      Phase::Lanes,

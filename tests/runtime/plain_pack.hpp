@@ -123,6 +123,11 @@ struct RealPack {
     friend RealPack map_lanes(RealPack a, RealPack b, Function function) {
         return in_each_lane([&](auto i) { return function(a.lanes[i], b.lanes[i]); });
     }
+    template <class Function>
+    friend RealPack replace_lanes(Mask replaced, RealPack a, RealPack others, Function function) {
+        return in_each_lane(
+            [&](auto i) { return replaced.lanes[i] ? function(a.lanes[i]) : others.lanes[i]; });
+    }
 };
 
 inline RealPack real_of_bits(BitPack a) {

@@ -112,11 +112,22 @@ class Marking {
         const ir::Scalar scalar = program_[store.target].scalar;
         const std::int64_t objects = ir::combinations(program_, nest.variables);
         if (scalar == ir::Scalar::Bool || objects < fewest_objects) return false;
-        const bool draws = std::holds_alternative<ir::Interval>(program_[store.value].form);
+        const ir::NodeId value = named_value(*nest.body, store.value);
+        const bool draws = std::holds_alternative<ir::Interval>(program_[value].form);
         const double least = draws ? least_cost_of_few_draws : least_cost_of_few_objects;
-        return cost_of(store.value) >= least ||
-               (scalar == ir::Scalar::Real && objects >= fewest_reals_that_jump &&
-                jumps(store.value) && !reads_new_values(store.value));
+        return cost_of(value) >= least ||
+               (scalar == ir::Scalar::Real && objects >= fewest_reals_that_jump && jumps(value) &&
+                !reads_new_values(value));
+    }
+    // The value that a let of the block gives this name; the node itself if it is no name.
+    ir::NodeId named_value(const ir::Block& block, ir::NodeId id) const {
+        const auto* local = std::get_if<ir::Local>(&program_[id].form);
+        if (!local) return id;
+        for (const ir::Statement& statement : block) {
+            const auto* let = std::get_if<ir::Let>(&statement.form);
+            if (let && let->local == local->local) return let->value;
+        }
+        return id;
     }
     bool jumps(ir::NodeId id) const {
         return ir::any_node_of(program_, id, [&](ir::NodeId each) {

@@ -4,7 +4,7 @@
 #include "ir/builder.hpp"
 #include "ir/call.hpp"
 #include "ir/rewrite.hpp"
-#include "support/match.hpp"
+#include "passes/analyses/needed_angles.hpp"
 
 #include <algorithm>
 #include <cstddef>
@@ -27,70 +27,22 @@ class Grouping {
         : program_(std::move(program)), report_(report), builder_(program_) {}
 
     ir::Program run() && {
-        for (const ir::Definition& definition : program_.step) collect(definition.body);
-        collect(program_.reward.body);
-        collect(program_.reward.value);
+        const NeededAngles needed(program_, builder_);
+        for (const ir::Definition& definition : program_.step) collect(needed.of(definition.body));
+        collect(needed.of(program_.reward));
         if (angles_.size() < fewest_angles) return std::move(program_);
         replace();
         return ir::collect_garbage(std::move(program_));
     }
 
   private:
-    // ------------------------------------------------------------------------------ finding
-
-    void collect(const ir::Block& block) {
-        for (const ir::Statement& statement : block) {
-            match(
-                statement.form, [&](const ir::Let& let) { collect(let.value); },
-                [&](const ir::Store& store) { collect(store.value); },
-                [&](const ir::Spread& spread) { collect(spread.bits); },
-                [&](const ir::Loop& loop) {
-                    if (program_[loop.variable].size > 0) collect(loop.body);
-                },
-                [](const ir::Visit&) {}, [](const ir::Call&) {});
-        }
-    }
-    void collect(ir::NodeId id) {
-        if (!seen_.insert(id).second) return;
-        const ir::Node& node = program_[id];
-        const std::vector<ir::NodeId> operands = ir::operands_of(node);
-        if (ir::is_sine_or_cosine(node) && is_ready(id, operands.front())) {
+    void collect(const std::vector<ir::NodeId>& functions) {
+        for (const ir::NodeId id : functions) {
+            if (!builder_.properties(id).free_variables.empty() || !seen_.insert(id).second)
+                continue;
             found_.push_back(id);
-            angles_.insert(operands.front());
-            return;
+            angles_.insert(ir::operands_of(program_[id]).front());
         }
-        const std::size_t always = evaluates_first_alone(node) ? 1 : operands.size();
-        for (std::size_t k = 0; k < always; ++k) collect(operands[k]);
-    }
-
-    bool is_ready(ir::NodeId id, ir::NodeId angle) {
-        const ir::Properties& properties = builder_.properties(id);
-        return properties.free_variables.empty() && !properties.random && !properties.may_fault &&
-               !properties.uniform && reads_records_alone(angle);
-    }
-    // The state, the action and constants; no sine or cosine, which may be one of the same call.
-    bool reads_records_alone(ir::NodeId id) const {
-        const ir::Node& node = program_[id];
-        const auto buffer = ir::buffer_read_by(node);
-        if (ir::is_sine_or_cosine(node) || std::holds_alternative<ir::Local>(node.form) ||
-            (buffer && !is_record(program_[*buffer].storage)))
-            return false;
-        return std::ranges::all_of(ir::operands_of(node), [&](ir::NodeId operand) {
-            return reads_records_alone(operand);
-        });
-    }
-    static bool is_record(ir::Storage storage) {
-        return storage == ir::Storage::Constant || storage == ir::Storage::State ||
-               storage == ir::Storage::Action;
-    }
-    // The other operands may be left out.
-    bool evaluates_first_alone(const ir::Node& node) const {
-        const auto* select = std::get_if<ir::Select>(&node.form);
-        const auto* apply = std::get_if<ir::Apply>(&node.form);
-        const auto* reduce = std::get_if<ir::Reduce>(&node.form);
-        return (select && !ir::is_guarded_product(program_, *select)) ||
-               (apply && is_one_of(apply->op, {Operator::And, Operator::Or, Operator::Implies})) ||
-               (reduce && (reduce->bounds || reduce->over_true));
     }
 
     // ---------------------------------------------------------------------------- replacing

@@ -1,5 +1,5 @@
-// The interface of a real type for the elementary functions (rddl/values/math.hpp), here for double and
-// float.
+// The interface of a real type for the elementary functions (rddl/values/math.hpp), here for double
+// and float.
 //
 // A pack of reals, one in each lane, offers the same names with the same meaning in every lane:
 //
@@ -12,6 +12,7 @@
 //                                   around and has + - & | ^, also with std::uint64_t on the right,
 //                                   and << >> by an int
 //     map_lanes(x, f), (x, y, f)    f, a function of doubles, in each lane
+//     replace_lanes(mask, x, r, f)  f(x) in the lanes of the mask, which are few, else r
 //
 // float and packs of it have the same with binary32, std::uint32_t and floats, and
 //
@@ -101,6 +102,10 @@ double map_lanes(double a, Function function) {
 template <class Function>
 double map_lanes(double a, double b, Function function) {
     return function(a, b);
+}
+template <class Function>
+double replace_lanes(bool replaced, double a, double others, Function function) {
+    return replaced ? function(a) : others;
 }
 
 }  // namespace rddl

@@ -87,6 +87,15 @@ requires SomePack<A>
     for (int lane = 0; lane < n; ++lane) results.set(lane, function(a[lane], b[lane]));
     return results;
 }
+// In these lanes alone; the others are given.
+template <int n, class Function>
+[[gnu::noinline, gnu::cold]] Lanes<double, n> replace_lanes(Mask<n> replaced,
+                                                            const Lanes<double, n>& a,
+                                                            Lanes<double, n> others,
+                                                            Function function) {
+    for_each_lane(replaced, [&](int lane) { others.set(lane, function(a[lane])); });
+    return others;
+}
 
 // ---------------------------------------------------------------------------------- choices
 

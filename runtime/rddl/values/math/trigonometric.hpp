@@ -84,8 +84,7 @@ RDDL_ALWAYS_INLINE R with_great_angles(R a, R result, Function function) {
     const auto great = absolute(a) > greatest_angle;
     if (!any(great)) [[likely]]
         return result;
-    // The library's functions return at once for the zeros of the other lanes.
-    return select(great, map_lanes(select(great, a, R{0.0}), function), result);
+    return replace_lanes(great, a, result, function);
 }
 
 }  // namespace detail
