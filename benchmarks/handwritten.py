@@ -71,6 +71,7 @@ REFERENCES = {
     "MountainCar_ippc2023": Reference(CONTROL, "1", "mountain_car", "MountainCar", True),
     "CartPole_Continuous_gym": Reference(CONTROL, "0", "cart_pole", "CartPole", True),
     "Pendulum_gym": Reference(CONTROL, "0", "pendulum", "Pendulum", True),
+    "Option_or": Reference(CONTROL, "1", "option", "Option"),
     "Acrobot_gym": Reference(CONTROL, "0", "acrobot", "Acrobot"),
     "MarsRover_ippc2023": Reference(CONTROL, "3", "mars_rover", "MarsRover"),
     "Reservoir_ippc2023": Reference(RESOURCES, "5", "reservoir", "Reservoir", True),
@@ -84,6 +85,7 @@ REFERENCES = {
     "WildlifePreserve_p10_ippc2018": Reference(OBJECTS, "10", "wildlife_preserve", "WildlifePreserve"),
     "Manufacturer_ippc2018": Reference(OBJECTS, "13", "manufacturer", "Manufacturer"),
     "CooperativeRecon_ippc2018": Reference(OBJECTS, "11", "cooperative_recon", "CooperativeRecon"),
+    "Logistics_rddlsim": Reference(OBJECTS, "0", "logistics", "Logistics"),
     "Zombies_arcade": Reference(OBJECTS, "2", "zombies", "Zombies"),
 }
 LEAST_RATIO = 0.9

@@ -44,6 +44,11 @@ def bit_sets(name: str, rows) -> str:
     return f"inline constexpr std::uint64_t {name}[] = {{{', '.join(f'{n:#x}' for n in numbers)}}};"
 
 
+def bit_set(name: str, row) -> str:
+    """A number whose bit k says whether entry k is true."""
+    return number(name, f"{sum(1 << int(k) for k in np.flatnonzero(row)):#x}", "std::uint64_t")
+
+
 def mountain_car() -> list[str]:
     values = values_of("MountainCar_ippc2023", "1")
     starts, ends = values["X-START"], values["X-END"]
@@ -471,6 +476,32 @@ def manufacturer() -> list[str]:
     ]
 
 
+def logistics() -> list[str]:
+    values = values_of("Logistics_rddlsim", "0")
+    assert np.all(values["MAX-DOCKED"] == 2) and np.all(values["CAPACITY"] == 1)
+    assert [values[f"{crowd}_CROWD_PROB"] for crowd in ("BIG", "MED", "LOW")] == [0, 0.5, 1]
+    assert values["PROB_LOAD"] == values["PROB_UNLOAD"]
+    tables = [values[name].ravel() for name in ("truckAt", "atDepot", "boxInTruck", "boxInCity")]
+    return [
+        bit_set("start", np.concatenate(tables)),
+        bit_set("destinations", values["DESTINATION"].ravel()),
+        number("load_probability", values["PROB_LOAD"]),
+    ]
+
+
+def option() -> list[str]:
+    values = values_of("Option_or", "1")
+    assert np.all(values["price"] == 10) and values["time"] == 0 and not values["exercised"]
+    covariances = values["RHO"] * np.sqrt(np.outer(values["VAR"], values["VAR"]))
+    (first, _), (shared, second) = np.linalg.cholesky(covariances)
+    numbers = {"price": 10.0, "delta": values["DELTA"], "maturity": values["MATURITY"], "strike": values["STRIKE"]}
+    return [
+        array("drift", (values["MEAN"] - 0.5 * values["VAR"]) * values["DELTA"]),
+        array("factor", np.multiply([first, shared, second], np.sqrt(values["DELTA"]))),
+        *(number(name, float(value)) for name, value in numbers.items()),
+    ]
+
+
 TABLES = (
     mountain_car,
     sysadmin,
@@ -500,6 +531,8 @@ TABLES = (
     cooperative_recon,
     wildlife_preserve,
     manufacturer,
+    logistics,
+    option,
 )
 
 

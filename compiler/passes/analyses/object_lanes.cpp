@@ -48,7 +48,7 @@ bool ObjectLanes::can_evaluate(ir::NodeId id) const {
         },
         [&](const ir::DiscreteOver& discrete) {
             return ir::is_place_in(program_, nest_, discrete.place.index) &&
-                   can_evaluate(discrete.weight) && can_be_term(discrete.weight);
+                   can_be_weight(discrete.weight);
         },
         [&](const ir::Interval& interval) {
             return ir::is_place_in(program_, nest_, interval.place.index) &&
@@ -56,6 +56,13 @@ bool ObjectLanes::can_evaluate(ir::NodeId id) const {
         },
         [&](const ir::Reduce& reduce) { return can_aggregate(reduce); },
         [](const auto&) { return false; });
+}
+
+// Weights along the rows of a table were not measured in lanes.
+bool ObjectLanes::can_be_weight(ir::NodeId id) const {
+    ObjectLanes without_rows = *this;
+    without_rows.reads_rows_ = false;
+    return without_rows.can_evaluate(id) && can_be_term(id);
 }
 
 bool ObjectLanes::can_aggregate(const ir::Reduce& reduce) const {
@@ -84,11 +91,14 @@ bool ObjectLanes::can_evaluate_all(const std::vector<ir::NodeId>& ids) const {
 }
 
 // An element of these objects, or one that is the same for all of them, or that they choose from a
-// table of constants.
+// table of constants. Of constants their rows may also be read along, as those of a matrix are.
 bool ObjectLanes::can_index(ir::BufferId buffer, const std::vector<ir::NodeId>& indices) const {
     if (ir::begins_with(program_, indices, nest_)) {
-        const auto rest = indices.begin() + static_cast<std::ptrdiff_t>(nest_.variables.size());
-        return can_evaluate_all({rest, indices.end()});
+        const bool has_rows = reads_rows_ && program_[buffer].storage == ir::Storage::Constant;
+        const auto rest = std::span(indices).subspan(nest_.variables.size());
+        return std::ranges::all_of(rest, [&](ir::NodeId index) {
+            return (has_rows && is_same(index)) || can_evaluate(index);
+        });
     }
     const auto are_same = [&](std::span<const ir::NodeId> some) {
         return std::ranges::all_of(some, [&](ir::NodeId index) { return is_same(index); });

@@ -33,6 +33,7 @@ class ObjectLanes {
     bool can_index(ir::BufferId buffer, const std::vector<ir::NodeId>& indices) const;
     bool can_aggregate(const ir::Reduce& reduce) const;
     bool can_be_term(ir::NodeId id) const;
+    bool can_be_weight(ir::NodeId id) const;
     bool is_same(ir::NodeId id) const;
     bool is_at_own_place(const ir::Element& element) const;
     bool can_evaluate_all(const std::vector<ir::NodeId>& ids) const;
@@ -41,6 +42,7 @@ class ObjectLanes {
     PropertiesOf properties_of_;
     ir::Nest nest_;
     std::function<bool(ir::NodeId)> is_element_;
+    bool reads_rows_ = true;  // of tables of constants
 };
 
 }  // namespace rddlc::passes

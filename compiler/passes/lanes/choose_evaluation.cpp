@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <optional>
 #include <span>
@@ -61,6 +62,8 @@ class Gathering {
             builder_, id, known, [&](ir::NodeId each) -> std::optional<ir::NodeId> {
                 if (const auto* sample = std::get_if<ir::Sample>(&program_[each].form))
                     return drawn(each, *sample, nest, known);
+                if (const auto* apply = std::get_if<ir::Apply>(&program_[each].form))
+                    return are_words_ ? drawn_if_open(each, apply->op, nest, known) : std::nullopt;
                 const auto* load = std::get_if<ir::Load>(&program_[each].form);
                 if (!load || load->gather != ir::Gather::None) return std::nullopt;
                 const ir::Gather gather = gather_of(*load, nest);
@@ -71,6 +74,27 @@ class Gathering {
                 for (ir::NodeId& index : indices) index = gathered(index, nest, known);
                 return builder_.load(buffer, std::move(indices), gather);
             });
+    }
+
+    // A condition whose draws are made for the objects for which the rest does not decide it.
+    std::optional<ir::NodeId> drawn_if_open(ir::NodeId id, Operator op, const ir::Nest& nest,
+                                            std::map<ir::NodeId, ir::NodeId>& known) {
+        if (op != Operator::And && op != Operator::Or) return std::nullopt;
+        std::vector<ir::NodeId> parts = ir::parts_of(program_, id, op);
+        const auto is_random = [&](ir::NodeId part) {
+            return builder_.properties(part).random;
+        };
+        const auto draws =
+            std::stable_partition(parts.begin(), parts.end(), std::not_fn(is_random));
+        if (draws == parts.begin() || draws == parts.end()) return std::nullopt;
+        ++report_["draws that wait for the rest of their condition"];
+        const ir::NodeId test = ir::joined(builder_, op, std::span(parts.begin(), draws));
+        const ir::NodeId rest = ir::joined(builder_, op, std::span(draws, parts.end()));
+        const ir::NodeId condition = gathered(test, nest, known);
+        const ir::NodeId drawn = gathered(rest, nest, known);
+        const ir::NodeId decided = builder_.constant(op == Operator::Or);
+        return op == Operator::Or ? builder_.select(condition, decided, drawn)
+                                  : builder_.select(condition, drawn, decided);
     }
 
     // A draw whose probabilities become chances.

@@ -21,6 +21,11 @@
 //     sample bernoulli@0[x](select(state.on[x] > 2, RATE[x], NOISE[x]))
 //                              =>  sample valid bernoulli@0[x](select both(
 //                                      adjacent state.on[x] > 2, chances RATE[x], chances NOISE[x]))
+//
+// and in those over words of bools, which draw for the objects that need it
+//
+//     state.on[x] && sample bernoulli@0[x](0.5)
+//                              =>  select(adjacent state.on[x], sample bernoulli@0[x](0.5), false)
 #pragma once
 
 #include "ir/ir.hpp"

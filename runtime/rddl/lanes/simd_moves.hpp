@@ -55,6 +55,20 @@ template <class T>
     for (int i = 0; i < lanes_of<T> && i < count; ++i) to[i] = values[i];
 #endif
 }
+// Stores them one by one, so that loads take them from the stores: a load of what a masked store
+// has just written waits.
+[[gnu::always_inline]] inline void store_one_by_one(double* to, Reals values, int count) {
+#ifdef RDDL_SIMD_AVX512
+    const __m256d both = _mm512_castpd512_pd256(values);
+    const __m128d first = _mm256_castpd256_pd128(both), second = _mm256_extractf128_pd(both, 1);
+    _mm_store_sd(to, first);
+    if (count > 1) _mm_storeh_pd(to + 1, first);
+    if (count > 2) _mm_store_sd(to + 2, second);
+    if (count > 3) _mm_storeh_pd(to + 3, second);
+#else
+    store_some(to, values, count);
+#endif
+}
 
 // -------------------------------------------------------------------------------- gathering
 

@@ -140,6 +140,17 @@ RDDL_INLINE Lanes<R, n> uniform_at(Context<Objects<n, R>>& context, Place place)
     return part_of<Lanes<R, n>>(numbers, 0);
 }
 
+// Two objects share one counter value, which is made outside of vector registers sooner.
+template <int n, class R, std::same_as<PlaceAmong<2>> AmongTwo>
+RDDL_INLINE Lanes<R, n> uniform_at(Context<Objects<n, R>>& context, AmongTwo place) {
+    if (context.draws.are_medians) return Lanes<R, n>{R(median_number)};
+    philox::Block<std::uint64_t> words;
+    context.draws.schedule.generate(place.series, std::uint64_t{place.index / 2}, words);
+    Lanes<R, n> numbers{unit_real<R>(words[2], words[3])};
+    numbers.set(0, unit_real<R>(words[0], words[1]));
+    return numbers;
+}
+
 namespace detail {
 
 // The normals of the next objects of a loop over `count`, as many as are kept.
@@ -219,6 +230,11 @@ RDDL_INLINE void store_some(bool* to, const SomeObjects<n>& objects, const Mask<
 template <int n, class T>
 RDDL_INLINE void store_some(T* to, const SomeObjects<n>& objects, const Lanes<T, n>& values) {
     if (objects.count == n) return values.store(to);
+    if constexpr (std::is_same_v<T, double> && values.part_count == 1) {
+        const int count = objects.count;
+        if (__builtin_constant_p(count) && count <= simd::most_in_pairs)
+            return simd::store_one_by_one(to, values.part[0], count);
+    }
     for (int p = 0, first = 0; p < values.part_count; ++p, first += values.part_width)
         simd::store_some(to + first, values.part[p], objects.count - first);
 }

@@ -72,6 +72,19 @@ TEST(ChooseEvaluation, ChecksProbabilitiesThatMayBeNone) {
     EXPECT_EQ(chosen("Bernoulli(0.25)", "bool"), "sample bernoulli@0[o * 3 + q](0.25)");
 }
 
+// Loops over words compute both sides of a condition. Others jump.
+TEST(ChooseEvaluation, DrawsInWordsWhereTheRestIsOpen) {
+    EXPECT_EQ(chosen("Bernoulli(0.25) ^ v(?o, ?q) ^ a", "bool"),
+              "select(adjacent state.v[o, q] && action.a, sample bernoulli@0[o * 3 + q](0.25), "
+              "false)");
+    EXPECT_EQ(chosen("v(?o, ?q) | Bernoulli(0.25) | Bernoulli(0.5)", "bool"),
+              "select(adjacent state.v[o, q], true, sample bernoulli@0[o * 3 + q](0.25) || "
+              "sample bernoulli@1[o * 3 + q](0.5))");
+    EXPECT_EQ(chosen("v(?o, ?q) ^ Bernoulli(0.25) ^ x(?o, ?q) > 1.0", "bool"),
+              "adjacent state.v[o, q] && sample bernoulli@0[o * 3 + q](0.25) && "
+              "adjacent state.x[o, q] > 1.0");
+}
+
 TEST(ChooseEvaluation, SaysWhereSomeDrawsAreCertain) {
     EXPECT_EQ(chosen("Bernoulli(CHANCE(?o, ?q))", "bool"),
               "sample valid bernoulli@0[o * 3 + q](chances CHANCE[o, q])");

@@ -85,7 +85,8 @@ TEST(EvaluateTogether, TakesFewObjectsWhoseRealsTakeLong) {
     const auto marked = [](const std::string& cpf) {
         passes::Report report;
         passes::evaluate_together(
-            grounded({.pvariables = "v(obj) : { state-fluent, real, default = 0.0 };",
+            grounded({.pvariables = "C(obj, obj) : { non-fluent, real, default = 1.0 };\n"
+                                    "v(obj) : { state-fluent, real, default = 0.0 };",
                       .cpfs = "v'(?x) = " + cpf + ";"}),
             report);
         return report["loops over several objects at once"];
@@ -94,6 +95,7 @@ TEST(EvaluateTogether, TakesFewObjectsWhoseRealsTakeLong) {
     EXPECT_EQ(marked("if (v(?x) > 1.0) then 2.0 else v(?x) + Normal(0.0, 1.0)"), 1);
     EXPECT_EQ(marked("max[0.0, min[v(?x), 1.0]] + v(?x) * v(?x) / 3.0"), 0);
     EXPECT_EQ(marked("v(?x) + sum_{?y : obj} [v(?y)]"), 0);
+    EXPECT_EQ(marked("exp[sum_{?y : obj} [C(?x, ?y) * v(?y)]]"), 1);
 }
 
 // Six pairs do, in place of six jumps, unless they wait for what this step has stored.

@@ -367,6 +367,9 @@ void expect_shared_normals(Context<Scalar> context) {
 }
 
 TEST(Objects, MakeTheirNormalsTogether) {
+    expect_shared_normals<2>(context_of_step(5));
+    expect_shared_normals<4>(context_of_step(6));
+    expect_shared_normals<2>({median_key, 1, {}});
     expect_shared_normals<16>(context_of_step(1));
     expect_shared_normals<21>(context_of_step(2));
     expect_shared_normals<64>(context_of_step(3));
