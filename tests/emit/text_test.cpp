@@ -143,6 +143,35 @@ TEST(EmittedText, SaysWhichDrawsAreThoseOfTwoObjects) {
     EXPECT_EQ(count(with_chances(3), "PlaceAmong"), 0u);
 }
 
+// Loops over up to eight objects draw together with what is drawn once; branches do not.
+TEST(EmittedText, MakesTheNumbersOfCertainDrawsTogether) {
+    const auto with_objects = [](int count, const std::string& chance_of_c) {
+        std::string text = problem(count);
+        text.replace(text.find("a(o) :"), 0,
+                     "v(o) : { state-fluent, real, default = 0.5 };\n"
+                     "c : { state-fluent, bool, default = false };\n");
+        text.replace(text.find("on(?o) ^ Bernoulli(0.5) | a(?o)"), 31,
+                     "Bernoulli(min[max[v(?o), 0.1], 0.9])");
+        text.replace(text.find("}; reward"), 0, "v'(?o) = v(?o) / 2;\nc' = " + chance_of_c + ";\n");
+        return emitted(text);
+    };
+    const std::string drawn = with_objects(5, "Bernoulli(0.25)");
+    EXPECT_EQ(count(drawn,
+                    "step_draws = {\n"
+                    "    rddl::counters_of_loop(1),\n"
+                    "    rddl::counters_of_draws({{0, 0}}),\n"
+                    "};"),
+              1u)
+        << drawn;
+    EXPECT_EQ(count(drawn, "const rddl::StepNumbers<L, step_draws> numbers(context);"), 1u);
+    EXPECT_EQ(count(drawn, "rddl::place_in_row<0>(numbers, 1, o)"), 1u);
+    EXPECT_EQ(count(drawn, "rddl::place_in_lane<1, 0>(numbers, 0, 0)"), 1u);
+    EXPECT_EQ(count(with_objects(5, "if (c) then Bernoulli(0.25) else false"), "StepNumbers"), 0u);
+    EXPECT_EQ(count(with_objects(5, "~c"), "StepNumbers"), 0u)
+        << "one row is made where it is used";
+    EXPECT_EQ(count(with_objects(9, "Bernoulli(0.25)"), "StepNumbers"), 0u);
+}
+
 // Two of 17 at most. The others keep their bools, and draw nothing.
 TEST(EmittedText, ComputesTheObjectsThatAnActionChooses) {
     std::string text = problem(17);

@@ -41,6 +41,7 @@ void Uses::add(const Uses& others) {
     stored.insert(others.stored.begin(), others.stored.end());
     types.insert(others.types.begin(), others.types.end());
     context |= others.context;
+    numbers |= others.numbers;
 }
 
 // -------------------------------------------------------------------------------- names
@@ -264,6 +265,11 @@ Expression Expressions::call(std::string_view function, const std::vector<ir::No
 
 tree::Expressions Expressions::place_of_draw(const ir::Place& place,
                                              std::optional<Distribution> distribution) {
+    const auto where = unit_.step_draws.find(place);
+    if (where && where->lane.has_value() != several_.has_value()) {
+        uses_.context = true;
+        return {word(context()), place_in_step(place, *where)};
+    }
     const bool takes_one_number = !distribution || is_by_inversion(*distribution);
     if (takes_one_number && !several_ && unit_.is_lone(place))
         return this->place(
@@ -274,6 +280,17 @@ tree::Expressions Expressions::place_of_draw(const ir::Place& place,
     const bool is_bernoulli = distribution == Distribution::Bernoulli && !several_;
     const std::int64_t most = distribution == Distribution::Normal ? any : is_bernoulli ? 2 : 0;
     return this->place(place, type_among(place, most));
+}
+
+Expression Expressions::place_in_step(const ir::Place& place, const StepDraws::Where& where) {
+    uses_.numbers = true;
+    std::string function = "rddl::place_in_row<" + std::to_string(where.row);
+    if (where.lane)
+        function =
+            "rddl::place_in_lane<" + std::to_string(where.row) + ", " + std::to_string(*where.lane);
+    tree::Expressions arguments = tree::list(word("numbers"));
+    append(arguments, numbers_of(place));
+    return tree::call(function + ">", std::move(arguments));
 }
 
 std::string Expressions::type_among(const ir::Place& place, std::int64_t most) const {
@@ -289,11 +306,15 @@ std::string Expressions::type_among(const ir::Place& place, std::int64_t most) c
 
 tree::Expressions Expressions::place(const ir::Place& place, const std::string& type) {
     uses_.context = true;
+    return {word(context()), braces(type, numbers_of(place))};
+}
+
+tree::Expressions Expressions::numbers_of(const ir::Place& place) {
     const auto& series = unit_.program[place.site].series;
     tree::Expressions numbers = {tree::number(place.site.index),
                                  several_ ? word(several_->objects) : index(place.index)};
     if (series) numbers.push_back(tree::number(series->index));
-    return {word(context()), braces(type, std::move(numbers))};
+    return numbers;
 }
 
 const ir::Reduce* Expressions::over_true(const ir::Node& binder) const {

@@ -27,6 +27,7 @@ struct Uses {
     std::set<ir::Storage> stored;   // those that it changes
     std::set<ir::Scalar> types;
     bool context = false;
+    bool numbers = false;  // of the step
 
     void add(const Uses& others);
     bool has(ir::Storage storage) const { return records.contains(storage); }
@@ -163,10 +164,14 @@ class Expressions {
     tree::Expressions all_of(std::span<const ir::NodeId> operands);
     // The context and the place of a draw or a fault.
     tree::Expressions place(const ir::Place& place, const std::string& type = "");
+    // Its site and index, and its series if that is another's.
+    tree::Expressions numbers_of(const ir::Place& place);
     // "rddl::LonePlace" for a draw that a step makes once, "rddl::PlaceAmongSites" for one of many.
     // No distribution: one of weights or thresholds.
     tree::Expressions place_of_draw(const ir::Place& place,
                                     std::optional<Distribution> distribution = {});
+    // "rddl::place_in_row<0>(numbers, 1, g)": its number is made before the step.
+    tree::Expression place_in_step(const ir::Place& place, const StepDraws::Where& where);
     // "rddl::PlaceAmong<c_count>" in a loop over the objects of its scope, if there are at most so
     // many, else "".
     std::string type_among(const ir::Place& place, std::int64_t most) const;

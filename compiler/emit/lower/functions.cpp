@@ -31,6 +31,9 @@ constexpr std::size_t level = 1;  // of the members of Simulator and Policy
 constexpr std::size_t most_calls = 64;
 constexpr std::size_t calls_in_part = 32;
 
+// The numbers of the draws that every step makes.
+const std::string step_numbers = "rddl::StepNumbers<L, step_draws>";
+
 struct Parameter {
     std::string type;
     std::string name;
@@ -47,6 +50,7 @@ std::vector<Parameter> parameters_of(const std::vector<Storage>& records, const 
     std::vector<Parameter> parameters;
     for (const Storage storage : records) parameters.push_back(record_parameter(storage, uses));
     parameters.push_back({"rddl::Context<L>&", "context", uses.context});
+    if (uses.numbers) parameters.push_back({"const " + step_numbers + "&", "numbers", true});
     return parameters;
 }
 
@@ -404,8 +408,13 @@ StepFunctions step_functions(const Unit& unit) {
     CpfFunctions cpfs =
         cpf_functions(unit, "step", unit.program.step, unit.names.functions, Owner::Simulator);
     cpfs.uses.stored.insert({Storage::Scratch, Storage::Next, Storage::Observation});
+    tree::Block body;
+    if (std::exchange(cpfs.uses.numbers, false))
+        body.push_back(
+            {tree::call(tree::declared("const " + step_numbers, "numbers"), {word("context")})});
+    append(body, std::move(cpfs.calls));
     return {printed(function("void", "step", parameters_of(simulator_records, cpfs.uses),
-                             std::move(cpfs.calls))),
+                             std::move(body))),
             print(cpfs.functions, level)};
 }
 

@@ -150,6 +150,26 @@ std::string record(const Unit& unit, const std::string& name, ir::Storage storag
     return tree::print({{.form = std::move(result), .is_template = true}}, 0);
 }
 
+// inline constexpr std::array step_draws = {
+//     rddl::counters_of_loop(1), rddl::counters_of_draws({{2, 0}, {3, 0}})
+// };
+tree::Statement draws_of_step(const StepDraws& draws) {
+    tree::Expressions rows;
+    for (const StepDraws::Row& row : draws.rows()) {
+        if (row.loop) {
+            rows.push_back(tree::call("rddl::counters_of_loop", {tree::number(*row.loop)}));
+            continue;
+        }
+        tree::Expressions lanes;
+        for (const auto& [series, index] : row.lone)
+            lanes.push_back(tree::braces("", {tree::number(series), tree::number(index)}));
+        rows.push_back(tree::call("rddl::counters_of_draws", {tree::braces("", std::move(lanes))}));
+    }
+    return {.form = tree::Assign{tree::declared("inline constexpr std::array", "step_draws"),
+                                 tree::braces("", std::move(rows))},
+            .comment = "what every step draws; the numbers are made together"};
+}
+
 std::string tables(const Unit& unit, const Unit* around) {
     tree::Block definitions;
     for (std::size_t index = 0; index < unit.program.buffers.size(); ++index) {
@@ -164,6 +184,7 @@ std::string tables(const Unit& unit, const Unit* around) {
         definitions.push_back(table(type, name, buffer.shape, buffer.values.dense(), real));
         definitions.back().comment = comment_text(buffer.name) + ", " + unit.where(buffer.span);
     }
+    if (!unit.step_draws.rows().empty()) definitions.push_back(draws_of_step(unit.step_draws));
     return section("tables", tree::print(definitions, 0));
 }
 

@@ -54,6 +54,7 @@ Unit::Unit(const ir::Program& the_program, const Sources& the_sources,
             if (contains_branch[operand.index]) contains_branch[index] = true;
         }
     }
+    step_draws = StepDraws(program, [&](const ir::Place& place) { return !is_among_sites(place); });
 }
 
 std::set<std::uint32_t> Unit::series_of_lone_draws() const {

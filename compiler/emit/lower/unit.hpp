@@ -3,6 +3,7 @@
 #pragma once
 
 #include "emit/emit.hpp"
+#include "emit/lower/step_draws.hpp"
 #include "emit/names/names.hpp"
 #include "ir/analysis.hpp"
 #include "ir/ir.hpp"
@@ -45,6 +46,8 @@ struct Unit {
     // Whether a step makes so many draws of neighbouring sites once that one environment makes
     // their numbers in a register.
     bool is_among_sites(const ir::Place& place) const;
+
+    StepDraws step_draws;
 
   private:
     std::set<std::uint32_t> series_of_lone_draws() const;

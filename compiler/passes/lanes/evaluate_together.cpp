@@ -7,7 +7,10 @@
 #include "support/match.hpp"
 
 #include <algorithm>
+#include <set>
+#include <string>
 #include <utility>
+#include <vector>
 
 namespace rddlc::passes {
 namespace {
@@ -25,11 +28,20 @@ constexpr std::int64_t fewest_objects = 2;
 // So do reals that would jump one after the other, since processors cannot foresee where. Ints that
 // jump do not pay.
 constexpr std::int64_t fewest_reals_that_jump = 4;
+constexpr std::int64_t objects_of_register = 8;
 
 class Marking {
   public:
     explicit Marking(const ir::Program& program)
-        : program_(program), properties_(ir::all_properties(program)) {}
+        : program_(program), properties_(ir::all_properties(program)) {
+        for (const ir::Definition& definition : program.step) {
+            const auto* loop = ir::only_statement<ir::Loop>(definition.body);
+            const ir::Buffer& target = program[definition.target];
+            if (loop && target.storage == ir::Storage::Next &&
+                !(is_worth_it(*loop) && is_possible(*loop)))
+                stored_one_by_one_.insert(target.name);
+        }
+    }
 
     // The outermost loops that can be, and the loops inside of others, whose objects are in a row.
     std::int64_t mark(ir::Block& block, bool is_inside = false) const {
@@ -37,8 +49,8 @@ class Marking {
         for (ir::Statement& statement : block) {
             auto* const loop = std::get_if<ir::Loop>(&statement.form);
             if (!loop) continue;
-            const bool is_right =
-                is_worth_it(*loop) && is_possible(*loop) && !(is_inside && computes_ints(*loop));
+            const bool is_right = is_worth_it(*loop) && is_possible(*loop) &&
+                                  !(is_inside && computes_ints(*loop)) && !waits(*loop);
             const bool was_marked = std::exchange(loop->several_at_once, is_right);
             loop->as_words = loop->several_at_once && is_of_words(program_, *loop);
             marked += loop->several_at_once && !was_marked;
@@ -146,8 +158,33 @@ class Marking {
         });
     }
 
+    // Bools of few objects wait longer for ints that the step before has stored one by one than a
+    // register gains, unless each object would jump.
+    bool waits(const ir::Loop& loop) const {
+        const ir::Nest nest = ir::nest_of(loop);
+        if (ir::combinations(program_, nest.variables) >= objects_of_register) return false;
+        const std::vector<ir::NodeId> roots = ir::roots_of(*nest.body);
+        const auto is_other = [&](ir::NodeId root) {
+            return program_[root].type == ir::Scalar::Real || properties_[root.index].random ||
+                   jumps(root);
+        };
+        return std::ranges::none_of(roots, is_other) &&
+               std::ranges::any_of(roots, [&](ir::NodeId root) {
+                   return ir::any_node_of(program_, root, [&](ir::NodeId each) {
+                       return is_stored_one_by_one(program_[each]);
+                   });
+               });
+    }
+    bool is_stored_one_by_one(const ir::Node& node) const {
+        const auto buffer = ir::buffer_read_by(node);
+        return buffer && program_[*buffer].storage == ir::Storage::State &&
+               program_[*buffer].scalar == ir::Scalar::Int &&
+               stored_one_by_one_.contains(program_[*buffer].name);
+    }
+
     const ir::Program& program_;
     std::vector<ir::Properties> properties_;
+    std::set<std::string> stored_one_by_one_;  // tables of the next state
 };
 
 }  // namespace

@@ -93,6 +93,15 @@ class Schedule {
         for_each_later_key([&](const Key<Word>& key)
                                RDDL_INLINE_LAMBDA { do_round(words, to<Result>(key)); });
     }
+    // The blocks of several counters, made in turns since each round waits for the one before it.
+    template <class Result, std::size_t count>
+    RDDL_INLINE void generate(const Result (&second)[count], const Result (&third)[count],
+                              Block<Result> (&words)[count]) const {
+        for (std::size_t i = 0; i < count; ++i) do_two_rounds(second[i], third[i], words[i]);
+        for_each_later_key([&](const Key<Word>& key) RDDL_INLINE_LAMBDA {
+            for (Block<Result>& each : words) do_round(each, to<Result>(key));
+        });
+    }
     // The blocks of neighbours, from `third` on, made in turns since each round waits for the one
     // before it.
     template <class Third, class Result, std::size_t count>
@@ -110,11 +119,18 @@ class Schedule {
     static RDDL_INLINE Key<Result> to(const Key<Word>& key) {
         return {Result(key[0]), Result(key[1])};
     }
-    template <class Third, class Result>
-    RDDL_INLINE void do_two_rounds(std::uint64_t second, const Third& third,
+    RDDL_INLINE Word with_first_key(std::uint64_t second) const {
+        return Word{second} ^ first_key_;
+    }
+    template <class Second>
+    RDDL_INLINE Second with_first_key(const Second& second) const {
+        return second ^ Second(first_key_);
+    }
+    template <class Second, class Third, class Result>
+    RDDL_INLINE void do_two_rounds(const Second& second, const Third& third,
                                    Block<Result>& words) const {
         const Third product = multiply_low_halves(third, Third{second_multiplier});
-        const Result after_one = Result(upper_halves(product)) ^ Result(Word{second} ^ first_key_);
+        const Result after_one = Result(upper_halves(product)) ^ Result(with_first_key(second));
         words[0] = Result(product) ^ Result(after_two_rounds_[0]);
         words[1] = Result(after_two_rounds_[1]);
         words[3] = multiply_low_halves(after_one, Result{first_multiplier});

@@ -236,5 +236,29 @@ TEST(EvaluateTogether, LeavesCheapSumsAndShortLoops) {
     EXPECT_EQ(report["loops over several objects at once"], 1) << text;
 }
 
+// A register would wait for the counts that the step before has stored one by one.
+TEST(EvaluateTogether, LeavesBoolsOfFewObjectsThatCompareNewCounts) {
+    const auto loop_of_full = [](const std::string& second_type, const std::string& cpf_of_full) {
+        Problem problem = with_pairs("on(?x, ?y)");
+        problem.pvariables += "\nk(obj, " + second_type +
+                              ") : { state-fluent, int, default = 0 };\nfull(obj, " + second_type +
+                              ") : { state-fluent, bool, default = false };";
+        problem.cpfs +=
+            "\nk'(?x, ?z) = if (full(?x, ?z)) then k(?x, ?z) * 3 else k(?x, ?z) + 2;\n"
+            "full'(?x, ?z) = " +
+            cpf_of_full + ";";
+        passes::Report report;
+        const std::string text =
+            ir::print(valid(passes::evaluate_together(grounded(problem), report)));
+        const std::size_t begin = text.rfind("for x in obj", text.find("next.full"));
+        return text.substr(begin, text.find("\n", begin) - begin);
+    };
+    EXPECT_EQ(loop_of_full("pair", "full(?x, ?z) | k(?x, ?z) == 4"), "for x in obj");
+    EXPECT_EQ(loop_of_full("pair", "Bernoulli(0.5) ^ k(?x, ?z) == 4"),
+              "for x in obj, several at once");
+    EXPECT_EQ(loop_of_full("obj", "full(?x, ?z) | k(?x, ?z) == 4"),
+              "for x in obj, several at once");
+}
+
 }  // namespace
 }  // namespace rddlc

@@ -1,0 +1,136 @@
+#include "emit/lower/step_draws.hpp"
+
+#include "ir/analysis.hpp"
+#include "ir/nest.hpp"
+#include "support/match.hpp"
+
+#include <algorithm>
+#include <set>
+#include <variant>
+
+namespace rddlc::cpp {
+namespace {
+
+// The numbers of a row: two for each of its counters.
+constexpr std::size_t counters_of_row = 4;
+constexpr std::int64_t objects_of_row = 2 * counters_of_row;
+// A single row would be made where it is used as well.
+constexpr std::size_t least_rows = 2;
+
+// Calls take(place) for the draws by one number that an evaluation certainly makes.
+template <class Take>
+class CertainDraws {
+  public:
+    // Several objects at once evaluate both operands of a connective.
+    CertainDraws(const ir::Program& program, bool over_several, Take take)
+        : program_(program), over_several_(over_several), take_(std::move(take)) {}
+
+    void in(ir::NodeId id) {
+        if (!seen_.insert(id).second) return;
+        const ir::Node& node = program_[id];
+        match(
+            node.form,
+            [&](const ir::Select& select) {
+                in(select.condition);
+                if (select.evaluated != ir::Evaluated::Both) return;
+                in(select.then_value);
+                in(select.else_value);
+            },
+            [&](const ir::Apply& apply) {
+                const bool may_stop = node.type == ir::Scalar::Bool && !over_several_ &&
+                                      is_one_of(apply.op, {Operator::And, Operator::Or});
+                if (may_stop) return in(apply.operands.front());
+                for (const ir::NodeId operand : apply.operands) in(operand);
+            },
+            [&](const ir::Reduce&) {},
+            [&](const ir::Sample& sample) {
+                if (sample.distribution == Distribution::Bernoulli &&
+                    !has_chances(sample.parameters.front()))
+                    take_(sample.place);
+                for (const ir::NodeId parameter : sample.parameters) in(parameter);
+            },
+            [&](const ir::Discrete& discrete) { take_(discrete.place); },
+            [&](const ir::DiscreteOver& discrete) { take_(discrete.place); },
+            [&](const ir::Interval& interval) { take_(interval.place); },
+            [&](const auto&) {
+                for (const ir::NodeId operand : ir::operands_of(node)) in(operand);
+            });
+    }
+
+  private:
+    // Chances look for themselves which objects need numbers.
+    bool has_chances(ir::NodeId id) const {
+        const auto* const select = std::get_if<ir::Select>(&program_[id].form);
+        const auto* const load =
+            std::get_if<ir::Load>(&program_[select ? select->then_value : id].form);
+        return load && load->gather == ir::Gather::Chances;
+    }
+
+    const ir::Program& program_;
+    bool over_several_;
+    Take take_;
+    std::set<ir::NodeId> seen_;
+};
+
+bool fills_row(const ir::Program& program, const ir::Loop& loop) {
+    return loop.several_at_once && !loop.as_words && !loop.affected && !loop.chosen &&
+           !loop.clearances &&
+           ir::combinations(program, ir::nest_of(loop).variables) <= objects_of_row;
+}
+
+}  // namespace
+
+StepDraws::StepDraws(const ir::Program& program,
+                     const std::function<bool(const ir::Place&)>& takes_lane) {
+    if (program.real != RealType::Double) return;  // a register has the floats of 16 objects
+    std::vector<Row> lone_rows;
+    std::vector<std::pair<Key, Where>> lone;
+    const auto series_of = [&](const ir::Place& place) {
+        return program.series_of(place.site).index;
+    };
+    const auto add_lone = [&](const ir::Place& place) {
+        const auto* const index = std::get_if<ir::Constant>(&program[place.index].form);
+        if (!index || !takes_lane(place)) return;
+        if (lone_rows.empty() || lone_rows.back().lone.size() == counters_of_row)
+            lone_rows.emplace_back();
+        auto& lanes = lone_rows.back().lone;
+        lone.push_back({key_of(place), {lone_rows.size() - 1, lanes.size()}});
+        lanes.push_back({series_of(place), std::get<std::int64_t>(index->value)});
+    };
+    const auto add_loop = [&](const ir::Nest& nest, const ir::Place& place) {
+        if (!ir::is_place_in(program, nest, place.index) || found_.contains(key_of(place))) return;
+        found_[key_of(place)] = {rows_.size()};
+        rows_.push_back({.loop = series_of(place)});
+    };
+    for (const ir::Definition& definition : program.step) {
+        if (definition.unchosen) continue;
+        CertainDraws outside(program, false, add_lone);
+        for (const ir::Statement& statement : definition.body) {
+            if (const auto* let = std::get_if<ir::Let>(&statement.form)) outside.in(let->value);
+            if (const auto* store = std::get_if<ir::Store>(&statement.form))
+                outside.in(store->value);
+            const auto* const loop = std::get_if<ir::Loop>(&statement.form);
+            if (!loop || !fills_row(program, *loop)) continue;
+            const ir::Nest nest = ir::nest_of(*loop);
+            CertainDraws inside(program, true,
+                                [&](const ir::Place& place) { add_loop(nest, place); });
+            for (const ir::Statement& inner : *nest.body) {
+                if (const auto* let = std::get_if<ir::Let>(&inner.form)) inside.in(let->value);
+                if (const auto* store = std::get_if<ir::Store>(&inner.form))
+                    inside.in(store->value);
+            }
+        }
+    }
+    for (auto& [key, where] : lone) found_[key] = {where.row + rows_.size(), where.lane};
+    std::ranges::move(lone_rows, std::back_inserter(rows_));
+    if (rows_.size() >= least_rows) return;
+    rows_.clear();
+    found_.clear();
+}
+
+std::optional<StepDraws::Where> StepDraws::find(const ir::Place& place) const {
+    const auto found = found_.find(key_of(place));
+    return found == found_.end() ? std::nullopt : std::optional(found->second);
+}
+
+}  // namespace rddlc::cpp
