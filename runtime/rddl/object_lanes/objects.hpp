@@ -230,7 +230,7 @@ RDDL_INLINE void store_some(bool* to, const SomeObjects<n>& objects, const Mask<
 template <int n, class T>
 RDDL_INLINE void store_some(T* to, const SomeObjects<n>& objects, const Lanes<T, n>& values) {
     if (objects.count == n) return values.store(to);
-    if constexpr (std::is_same_v<T, double> && values.part_count == 1) {
+    if constexpr (std::is_same_v<T, double> && Lanes<T, n>::part_count == 1) {
         const int count = objects.count;
         if (__builtin_constant_p(count) && count <= simd::most_in_pairs)
             return simd::store_one_by_one(to, values.part[0], count);
