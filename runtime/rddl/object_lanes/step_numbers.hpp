@@ -1,7 +1,7 @@
 // The random numbers of draws that every step of one environment makes, made together.
 //
 // The rounds of Philox wait for each other, so several registers of counters take hardly longer
-// than one. A row of four counters has the numbers of a loop over up to eight objects, or of up to
+// than one. A row of four counters has the numbers of a loop over up to 8 objects, or of up to
 // four draws that a step makes once. Packs, and processors without half registers of AVX-512, make
 // the numbers where they are used.
 #pragma once
@@ -24,7 +24,7 @@ struct FourCounters {
     std::array<std::uint64_t, 4> series, pairs;
 };
 
-// The counters of a loop over up to eight objects, and of draws that are made once.
+// The counters of a loop over up to 8 objects, and of draws that are made once.
 constexpr FourCounters counters_of_loop(std::uint64_t series) {
     return {{series, series, series, series}, {0, 1, 2, 3}};
 }

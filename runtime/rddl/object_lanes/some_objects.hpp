@@ -1,0 +1,68 @@
+// Neighbouring objects, and their elements of a table in vector registers.
+#pragma once
+
+#include <rddl/lanes/simd.hpp>
+#include <rddl/lanes/simd_bytes.hpp>
+#include <rddl/lanes/simd_moves.hpp>
+#include <rddl/values/pack_ops.hpp>
+
+#include <cstdint>
+#include <type_traits>
+
+namespace rddl {
+
+// Named after the level of simd.hpp, as packs are.
+inline namespace RDDL_SIMD_LEVEL {
+
+// The objects [first, first + count), up to n of them.
+template <int n>
+struct SomeObjects {
+    Index first;
+    int count;
+    constexpr operator Index() const { return first; }
+
+    Mask<n> mask() const { return Mask<n>::of_bits(~std::uint64_t{0} >> (64 - count)); }
+};
+
+}  // namespace RDDL_SIMD_LEVEL
+
+namespace detail {
+
+template <int n>
+RDDL_INLINE Mask<n> load_some(const bool* from, const SomeObjects<n>& objects) {
+    return Mask<n>::of_bits(simd::bits_of_stored_bytes(from, objects.count));
+}
+template <int n, class T>
+RDDL_INLINE Lanes<T, n> load_some(const T* from, const SomeObjects<n>& objects) {
+    if (objects.count == n) return Lanes<T, n>::load(from);
+    Lanes<T, n> values;
+    if constexpr (std::is_same_v<T, double> && values.part_count == 1) {
+        const int count = objects.count;
+        if (__builtin_constant_p(count) && count > 1 && count <= simd::most_in_pairs) {
+            values.part[0] = simd::load_in_pairs(from, count);
+            return values;
+        }
+    }
+    for (int p = 0, first = 0; p < values.part_count; ++p, first += values.part_width)
+        values.part[p] = simd::load_some(from + first, objects.count - first);
+    return values;
+}
+template <int n>
+RDDL_INLINE void store_some(bool* to, const SomeObjects<n>& objects, const Mask<n>& values) {
+    simd::store_as_bytes<n>(values.bits, to, objects.count);
+}
+template <int n, class T>
+RDDL_INLINE void store_some(T* to, const SomeObjects<n>& objects, const Lanes<T, n>& values) {
+    if (objects.count == n) return values.store(to);
+    if constexpr (std::is_same_v<T, double> && Lanes<T, n>::part_count == 1) {
+        const int count = objects.count;
+        if (__builtin_constant_p(count) && count <= simd::most_in_pairs)
+            return simd::store_one_by_one(to, values.part[0], count);
+    }
+    for (int p = 0, first = 0; p < values.part_count; ++p, first += values.part_width)
+        simd::store_some(to + first, values.part[p], objects.count - first);
+}
+
+}  // namespace detail
+
+}  // namespace rddl
