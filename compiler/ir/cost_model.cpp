@@ -270,8 +270,8 @@ class BlockCost {
 
 PackCost cost_of(const Program& program, std::span<const Properties> properties) {
     PackCost total;
-    const auto add = [&](const BlockCost& cost) {
-        total.block += cost.total().block;
+    const auto add = [&](const BlockCost& cost, double PackCost::*block) {
+        total.*block += cost.total().block;
         total.numbers += cost.total().numbers;
         total.draws += cost.total().draws;
     };
@@ -279,13 +279,13 @@ PackCost cost_of(const Program& program, std::span<const Properties> properties)
         BlockCost cost(program, properties);
         cost.add_body(computation.body);
         cost.add_value(computation.value);
-        add(cost);
+        add(cost, &PackCost::block);
     };
     add_computation(program.reward);
     for (const Definition& definition : program.step) {
         BlockCost cost(program, properties);
         cost.add_body(definition.body);
-        add(cost);
+        add(cost, definition.unchosen ? &PackCost::unchosen : &PackCost::block);
     }
     for (const auto* conditions : {&program.invariants, &program.terminations})
         for (const Computation& condition : *conditions) add_computation(condition);
@@ -342,7 +342,7 @@ double repetitions(const Program& program, const Node& binder) {
 
 double cost_of_step(const Program& program) {
     const PackCost cost = cost_of(program, {});
-    return step_cost + cost.block + cost.numbers + cost.draws;
+    return step_cost + cost.block + cost.unchosen + cost.numbers + cost.draws;
 }
 
 PackCost pack_cost_of_step(const Program& program) {

@@ -48,10 +48,12 @@ double cost_of_step(const Program& program);
 
 // The cost of one step of a pack of environments, by what it depends on.
 struct PackCost {
-    double block = 0;    // not the number of lanes: bools, which are the bits of a number, and what
-                         // is the same in all lanes
-    double numbers = 0;  // of each lane: ints and reals
-    double draws = 0;    // of each lane, where branches are taken: all that draws
+    double block = 0;  // not the number of lanes: bools, which are the bits of a number, and what
+                       // is the same in all lanes
+    double unchosen = 0;  // the same of definitions that a pack skips where none of its actions
+                          // chooses anything (Definition::unchosen): larger packs skip fewer
+    double numbers = 0;   // of each lane: ints and reals
+    double draws = 0;     // of each lane, where branches are taken: all that draws
 };
 PackCost pack_cost_of_step(const Program& program);
 

@@ -16,8 +16,10 @@ inline constexpr std::array suitable_lane_counts = {16, 64};
 // environments as for 16. Ints and reals take as many registers as their lanes need, and those of
 // 64 lanes do not stay in registers. So a pack has 64 lanes where steps compute with bools nearly
 // alone, if the nearest cache holds the action records of 64 environments. Draws do not count: as a
-// rule few lanes need them. A pack reads all of its action records: where a step reads few bools of
-// many, each environment takes less time alone. docs/lanes.md has the measurements.
+// rule few lanes need them. Nor do bools that a pack computes only where one of its actions chooses
+// something, since 16 environments skip them more often than 64. A pack reads all of its action
+// records: where a step reads few bools of many, each environment takes less time alone.
+// docs/lanes.md has the measurements.
 int suitable_lane_count(const Program& program);
 
 // Why steps of this program compute one environment at a time, whatever the number of lanes, as

@@ -67,6 +67,20 @@ TEST_F(LaneCountTest, ActionsThatAreReadInPartAreLeftToSingleEnvironments) {
     EXPECT_EQ(lanes_of(step), 1);
 }
 
+// Packs of few lanes skip more often what no action chooses.
+TEST_F(LaneCountTest, BoolsThatActionsMustChooseDoNotCount) {
+    const std::vector<Definition> bools = {w.fill(w.next_running, w.c, connectives(60)),
+                                           w.fill(w.next_running, w.d, is_high())};
+    EXPECT_EQ(lanes_of(bools), 64);
+    std::vector<Definition> unless_unchosen = bools;
+    unless_unchosen.front().unchosen = {{w.reboot}, w.running};
+    EXPECT_EQ(lanes_of(unless_unchosen), 16);
+    EXPECT_GT(pack_cost_of_step(w.program).unchosen, 0);
+    const double cost = cost_of_step(w.program);
+    w.program.step = bools;
+    EXPECT_EQ(cost, cost_of_step(w.program));
+}
+
 // Both costs count the same work, but loops over several objects at once.
 TEST_F(LaneCountTest, ThePartsOfAPacksCostAreTheWhole) {
     w.program.step = {w.fill(w.next_running, w.c, connectives(3)),
