@@ -225,8 +225,8 @@ struct Reduce {
     VariableId variable;
     NodeId body;
     std::optional<Bounds> bounds;  // absent: all of the range
-    // Emitted code visits the true elements of a row of bools alone (row_of_bools.hpp), except
-    // for several objects at once.
+    // Emitted code visits the true elements of a row or table of bools alone (row_of_bools.hpp),
+    // except for several objects at once.
     bool over_true = false;
     bool operator==(const Reduce&) const = default;
 };

@@ -3,6 +3,7 @@
 #include "ir/fold.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -19,23 +20,37 @@ bool is_zero(const Node& node) {
                                                  : identical(constant->value, Value(0.0)));
 }
 
+bool is_index_of(const Program& program, NodeId id, VariableId variable) {
+    const auto* index = std::get_if<Index>(&program[id].form);
+    return index && index->variable == variable;
+}
+
+// The bool of the state, the action or the step whose last indices are these variables, over all of
+// its last dimensions; its other indices are those of loops, and constants.
+bool is_element_at(const Program& program, NodeId id, std::span<const VariableId> variables) {
+    const auto* load = std::get_if<Load>(&program[id].form);
+    if (!load || load->indices.size() < variables.size() || load->gather != Gather::None)
+        return false;
+    const Buffer& buffer = program[load->buffer];
+    if (buffer.scalar != Scalar::Bool || buffer.storage == Storage::Constant) return false;
+    const std::size_t others = load->indices.size() - variables.size();
+    for (std::size_t i = 0; i < variables.size(); ++i)
+        if (!is_index_of(program, load->indices[others + i], variables[i]) ||
+            buffer.shape[others + i] != program[variables[i]].size)
+            return false;
+    return std::ranges::all_of(std::span(load->indices).first(others), [&](NodeId index) {
+        return std::holds_alternative<Constant>(program[index].form) ||
+               (std::holds_alternative<Index>(program[index].form) &&
+                std::ranges::none_of(variables, [&](VariableId variable) {
+                    return is_index_of(program, index, variable);
+                }));
+    });
+}
+
 }  // namespace
 
 bool is_in_row_of_bools(const Program& program, NodeId id, VariableId variable) {
-    const auto* load = std::get_if<Load>(&program[id].form);
-    if (!load || load->indices.empty() || load->gather != Gather::None) return false;
-    const Buffer& buffer = program[load->buffer];
-    const auto is_index = [&](NodeId index) {
-        const auto* form = std::get_if<Index>(&program[index].form);
-        return form && form->variable == variable;
-    };
-    const std::span<const NodeId> others = std::span(load->indices).first(load->indices.size() - 1);
-    return buffer.scalar == Scalar::Bool && buffer.storage != Storage::Constant &&
-           buffer.shape.back() >= fewest_in_row && buffer.shape.back() == program[variable].size &&
-           is_index(load->indices.back()) && std::ranges::all_of(others, [&](NodeId index) {
-               return !is_index(index) && (std::holds_alternative<Index>(program[index].form) ||
-                                           std::holds_alternative<Constant>(program[index].form));
-           });
+    return program[variable].size >= fewest_in_row && is_element_at(program, id, {&variable, 1});
 }
 
 const Load* row_of_bools(const Program& program, const Reduce& reduce) {
@@ -48,6 +63,20 @@ const Load* row_of_bools(const Program& program, const Reduce& reduce) {
         if (is_zero(program[select->else_value])) element = select->condition;
     return element && is_in_row_of_bools(program, *element, reduce.variable)
                ? &std::get<Load>(program[*element].form)
+               : nullptr;
+}
+
+const Load* table_of_bools(const Program& program, const Reduce& reduce) {
+    const auto* inner = std::get_if<Reduce>(&program[reduce.body].form);
+    if (reduce.op != Reduction::Sum || reduce.bounds || !inner || inner->op != Reduction::Sum ||
+        inner->bounds ||
+        program[reduce.variable].size * program[inner->variable].size < fewest_in_row)
+        return nullptr;
+    const auto* select = std::get_if<Select>(&program[inner->body].form);
+    const std::array variables{reduce.variable, inner->variable};
+    return select && is_zero(program[select->else_value]) &&
+                   is_element_at(program, select->condition, variables)
+               ? &std::get<Load>(program[select->condition].form)
                : nullptr;
 }
 

@@ -348,7 +348,8 @@ class Verifier {
     bool fits(const Reduce& form, Scalar result) const {
         const Scalar body = type(form.body);
         if (form.bounds && !are_uniform_ints(*form.bounds)) return false;
-        if (form.over_true && !row_of_bools(program_, form)) return false;
+        if (form.over_true && !row_of_bools(program_, form) && !table_of_bools(program_, form))
+            return false;
         const bool empty = program_[form.variable].size == 0 || form.bounds;
         switch (form.op) {
             case Reduction::ForAll:

@@ -322,24 +322,39 @@ const ir::Reduce* Expressions::over_true(const ir::Node& binder) const {
     return reduce && reduce->over_true && !several_ ? reduce : nullptr;
 }
 
+const ir::Reduce* Expressions::second_over_true(const ir::Node& binder) const {
+    const ir::Reduce* sum = over_true(binder);
+    return sum && ir::table_of_bools(unit_.program, *sum)
+               ? &std::get<ir::Reduce>(unit_.program[sum->body].form)
+               : nullptr;
+}
+
 // "state.p[c]"
-Expression Expressions::row_of_bools(const ir::Reduce& reduce) {
-    const ir::Load& load = *ir::row_of_bools(unit_.program, reduce);
-    return elements(record(load.buffer), std::span(load.indices).first(load.indices.size() - 1));
+Expression Expressions::bools_of(const ir::Reduce& reduce) {
+    const ir::Load* const table = ir::table_of_bools(unit_.program, reduce);
+    const ir::Load& load = table ? *table : *ir::row_of_bools(unit_.program, reduce);
+    const std::size_t dimensions = table ? 2 : 1;
+    return elements(record(load.buffer),
+                    std::span(load.indices).first(load.indices.size() - dimensions));
 }
 
 // "rddl::count_true(state.p[c])"
 std::optional<Expression> Expressions::count_of_true(const ir::Node& binder) {
     const ir::Reduce* sum = over_true(binder);
-    if (!sum || std::holds_alternative<ir::Select>(unit_.program[sum->body].form))
+    if (!sum || !std::holds_alternative<ir::Convert>(unit_.program[sum->body].form))
         return std::nullopt;
-    return tree::call("rddl::count_true", {row_of_bools(*sum)});
+    return tree::call("rddl::count_true", {bools_of(*sum)});
+}
+
+const ir::Select& Expressions::term_over_true(const ir::Node& binder) const {
+    const ir::Reduce* const second = second_over_true(binder);
+    const ir::Reduce& innermost = second ? *second : *over_true(binder);
+    return std::get<ir::Select>(unit_.program[innermost.body].form);
 }
 
 ir::NodeId Expressions::bound_value(const ir::Node& binder) const {
-    const ir::Reduce* sum = over_true(binder);
-    if (!sum) return ir::operands_of(binder).front();
-    return std::get<ir::Select>(unit_.program[sum->body].form).then_value;
+    if (!over_true(binder)) return ir::operands_of(binder).front();
+    return term_over_true(binder).then_value;
 }
 
 std::string Expressions::binder_function(const ir::Node& binder) {
@@ -354,10 +369,9 @@ std::string Expressions::binder_function(const ir::Node& binder) {
 
 tree::Expressions Expressions::binder_arguments(const ir::Node& binder) {
     if (const ir::Reduce* sum = over_true(binder)) {
-        const auto& term = std::get<ir::Select>(unit_.program[sum->body].form);
-        if (term.evaluated != ir::Evaluated::Branch) return {row_of_bools(*sum)};
+        if (term_over_true(binder).evaluated != ir::Evaluated::Branch) return {bools_of(*sum)};
         uses_.context = true;
-        return {word(context()), row_of_bools(*sum)};
+        return {word(context()), bools_of(*sum)};
     }
     if (const auto* reduce = std::get_if<ir::Reduce>(&binder.form)) {
         if (!several_) return {range(*reduce)};

@@ -67,8 +67,12 @@ class Expressions {
         const Mark before = mark();
         const ir::VariableId variable = *ir::bound_variable(binder);
         enter(variable);
+        const ir::Reduce* const second = second_over_true(binder);
+        if (second) enter(second->variable);
         const ir::NodeId value = shares ? shares->weights.front() : bound_value(binder);
-        arguments.push_back({tree::Lambda{{parameter(variable, value)}, body(value)}});
+        tree::Expressions parameters = {parameter(variable, value)};
+        if (second) parameters.push_back(parameter(second->variable, value));
+        arguments.push_back({tree::Lambda{std::move(parameters), body(value)}});
         return_to(before);
         return tree::call(
             shares ? "rddl::sample::discrete_of_shares_over" : binder_function(binder),
@@ -147,10 +151,15 @@ class Expressions {
     std::string binder_function(const ir::Node& binder);
     // The sum, if it visits true elements alone.
     const ir::Reduce* over_true(const ir::Node& binder) const;
+    // The sum inside it, if these are the elements of a table.
+    const ir::Reduce* second_over_true(const ir::Node& binder) const;
+    // The choice between what is added where an element is true, and zero.
+    const ir::Select& term_over_true(const ir::Node& binder) const;
     std::optional<tree::Expression> count_of_true(const ir::Node& binder);
     // The term of an aggregation, or the weight of a draw.
     ir::NodeId bound_value(const ir::Node& binder) const;
-    tree::Expression row_of_bools(const ir::Reduce& reduce);
+    // The row or table of which such a sum visits the true elements.
+    tree::Expression bools_of(const ir::Reduce& reduce);
     tree::Expressions binder_arguments(const ir::Node& binder);
     // "rddl::Index r"; without the name where the body does not use it.
     tree::Expression parameter(ir::VariableId variable, ir::NodeId body) const;

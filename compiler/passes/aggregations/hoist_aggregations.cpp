@@ -21,6 +21,10 @@ constexpr double worth_hoisting = 8;
 constexpr double cost_of_element = 2;
 // The work must shrink to less than this part, since branches may skip some of it.
 constexpr double worthwhile = 0.5;
+// The same where a constant table chooses the objects, of sums of so many operations. Such sums
+// mostly stand in branches, and sparse rows make short ones cheap. Both numbers are fitted
+// (docs/decisions.md).
+constexpr double worthwhile_by_table = 0.44, worth_choosing = 100;
 
 using Variables = std::vector<ir::VariableId>;
 
@@ -98,6 +102,7 @@ class Hoisting {
     void find_tables(ir::NodeId id, const Variables& around, std::size_t loops, ir::Block& before) {
         if (elements_.contains(id) || !visited_.emplace(id, around).second) return;
         if (is_worthwhile(id, around, loops)) return make_table(id, around, before);
+        if (const auto chosen = chosen_by_table(id, around)) return make_table(id, *chosen, before);
         const ir::Node node = program_[id];
         const auto variable = ir::bound_variable(node);
         const std::vector<ir::NodeId> operands = ir::operands_of(node);
@@ -114,12 +119,65 @@ class Hoisting {
             return false;
         if (properties.free_variables.empty() || is_fixed_by_loops(id, around, loops)) return false;
         const double entries = product_of_sizes(properties.free_variables);
-        const double evaluations = product_of_sizes(around);
-        const double hoisted =
-            entries * (properties.cost + cost_of_element) + evaluations * cost_of_element;
-        return entries <= ir::most_new_elements &&
-               hoisted < worthwhile * evaluations * properties.cost &&
+        return is_worth_a_table(properties.cost, entries, around) &&
                ir::is_known_before(program_, id, filled_);
+    }
+    bool is_worth_a_table(double cost, double entries, const Variables& around,
+                          double part = worthwhile) const {
+        const double evaluations = product_of_sizes(around);
+        const double hoisted = entries * (cost + cost_of_element) + evaluations * cost_of_element;
+        return entries <= ir::most_new_elements && hoisted < part * evaluations * cost;
+    }
+
+    // A sum that one object decides, through an element of a constant table, f(OWNER[t]):
+    // what that is of the objects that the element chooses.
+    struct Chosen {
+        ir::NodeId element;
+        ir::VariableId object;
+        ir::NodeId value;
+    };
+    std::optional<Chosen> chosen_by_table(ir::NodeId id, const Variables& around) {
+        const ir::Properties properties = builder_.properties(id);
+        const auto* sum = std::get_if<ir::Reduce>(&program_[id].form);
+        if (!sum || sum->op != Reduction::Sum || properties.uniform ||
+            properties.cost < worth_choosing || !ir::is_droppable(properties) ||
+            properties.free_variables.size() != 1 || !ir::is_known_before(program_, id, filled_))
+            return std::nullopt;
+        const auto element = element_by_table(id, builder_.index(properties.free_variables[0]));
+        if (!element) return std::nullopt;
+        const auto [place, type] = *element;
+        const double entries = static_cast<double>(program_.types[type].objects.size());
+        if (!is_worth_a_table(properties.cost, entries, around, worthwhile_by_table))
+            return std::nullopt;
+        const ir::VariableId object = object_of(type);
+        std::map<ir::NodeId, ir::NodeId> known = {{place, builder_.index(object)}};
+        const ir::NodeId value = ir::replace_in(builder_, id, known);
+        if (builder_.properties(value).free_variables != Variables{object}) return std::nullopt;
+        return Chosen{place, object, value};
+    }
+    // The first index that is an element of a constant table at the object, and of which type the
+    // objects are that it chooses.
+    std::optional<std::pair<ir::NodeId, std::uint32_t>> element_by_table(ir::NodeId id,
+                                                                         ir::NodeId object) const {
+        const auto* load = std::get_if<ir::Load>(&program_[id].form);
+        for (std::size_t k = 0; load && k < program_[load->buffer].types.size(); ++k) {
+            const auto* index = std::get_if<ir::Load>(&program_[load->indices[k]].form);
+            if (index && index->indices == std::vector{object} &&
+                program_[index->buffer].storage == ir::Storage::Constant)
+                return std::pair{load->indices[k], program_[load->buffer].types[k]};
+        }
+        for (const ir::NodeId operand : ir::operands_of(program_[id]))
+            if (const auto found = element_by_table(operand, object)) return found;
+        return std::nullopt;
+    }
+    // A loop index over the objects of a type that no expression has.
+    ir::VariableId object_of(std::uint32_t type) {
+        const auto [object, is_new] = objects_.try_emplace(
+            type, ir::VariableId{static_cast<std::uint32_t>(program_.variables.size())});
+        if (is_new)
+            program_.variables.push_back(
+                {program_.types[type].name, type, std::ssize(program_.types[type].objects)});
+        return object->second;
     }
 
     // It depends on outer loops alone.
@@ -162,6 +220,14 @@ class Hoisting {
         replaced_.clear();
         ++report_["tables filled before loops"];
     }
+    void make_table(ir::NodeId id, const Chosen& chosen, ir::Block& before) {
+        const Variables dimensions = {chosen.object};
+        const ir::BufferId table = new_table(id, dimensions);
+        ir::fill_table(builder_, before, table, dimensions, chosen.value);
+        elements_[id] = builder_.load(table, {chosen.element});
+        replaced_.clear();
+        ++report_["tables filled before loops"];
+    }
 
     ir::BufferId new_table(ir::NodeId id, const Variables& dimensions) {
         std::string name = name_ + "-by";
@@ -193,6 +259,8 @@ class Hoisting {
     std::set<std::pair<ir::NodeId, Variables>> visited_;
     std::map<ir::NodeId, ir::NodeId> elements_;  // what stands for a node that became a table
     std::map<ir::NodeId, ir::NodeId> replaced_;
+    std::map<std::uint32_t, ir::VariableId>
+        objects_;  // by type, of tables that constants choose from
 };
 
 }  // namespace

@@ -10,6 +10,16 @@
 //     for p in provider
 //         next.sold[p] = sum[i in item](select(by[p, i], scratch.sold-by-item[i], 0))
 //
+// A constant table may choose the few objects for which an aggregation is needed:
+//
+//     for t in tool
+//         next.broken[t] = ... sum[x in pos](real(state.at[OWNER[t], x]) * RISK[x]) ...
+//                                       =>
+//     for r in rover
+//         scratch.broken-by-rover[r] = sum[x in pos](real(state.at[r, x]) * RISK[x])
+//     for t in tool
+//         next.broken[t] = ... scratch.broken-by-rover[OWNER[t]] ...
+//
 // The table is filled before the statement that needs it; later statements of the step, and the
 // reward, also use it. A fallible expression stays where it is. Conditions have no tables, so they
 // are left alone. share_subexpressions names expressions that an outer loop fixes.

@@ -3,7 +3,9 @@
 #include "ir/analysis.hpp"
 #include "ir/rewrite.hpp"
 #include "ir/row_of_bools.hpp"
+#include "passes/analyses/few_true.hpp"
 
+#include <algorithm>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -56,13 +58,23 @@ bool may_be_skipped(const ir::Properties& properties, bool is_by_row, bool is_in
     return is_worth_it && properties.finite && ir::is_droppable(properties);
 }
 
+// A bool of loop indices in a table of which few are true.
+bool is_mostly_false(const ir::Program& program, ir::NodeId id) {
+    const auto* load = std::get_if<ir::Load>(&program[id].form);
+    return load && begins_with_few_true(program[load->buffer], least_per_visit) &&
+           std::ranges::all_of(load->indices, [&](ir::NodeId index) {
+               return std::holds_alternative<ir::Index>(program[index].form);
+           });
+}
+
 // The term as a choice between itself and zero.
 std::optional<ir::NodeId> chosen(ir::Builder& builder, const ir::Reduce& sum) {
     const auto choice = choice_of(builder, sum.body);
     if (!choice || !choice->value) return std::nullopt;
     const ir::Properties& properties = builder.properties(*choice->value);
     const bool is_by_row =
-        !sum.bounds && ir::is_in_row_of_bools(builder.program(), choice->counts, sum.variable);
+        !sum.bounds && (ir::is_in_row_of_bools(builder.program(), choice->counts, sum.variable) ||
+                        is_mostly_false(builder.program(), choice->counts));
     const bool is_invariant = !ir::depends_on_any(properties, {&sum.variable, 1});
     if (!may_be_skipped(properties, is_by_row, is_invariant)) return std::nullopt;
     return builder.select(choice->counts, *choice->value, builder.constant(0.0));

@@ -24,9 +24,6 @@
 namespace rddlc::passes {
 namespace {
 
-// Initially, at most one of so many is true.
-constexpr std::int64_t least_per_true = 16;
-
 using Factors = std::vector<ir::NodeId>;
 
 class Visiting {
@@ -247,7 +244,7 @@ class Visiting {
         if (!load || load->indices.size() != 1 ||
             !std::holds_alternative<ir::Index>(program_[load->indices[0]].form))
             return false;
-        return begins_with_few_true(program_[load->buffer], least_per_true);
+        return begins_with_few_true(program_[load->buffer], least_per_visit);
     }
 
     // A table that loops over many bools do not look up.

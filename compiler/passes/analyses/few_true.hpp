@@ -14,6 +14,8 @@ bool begins_with_few_true(const ir::Buffer& buffer, std::int64_t least_places);
 // Whether it is such a table of the action: one bool of `least_places` at most is true.
 bool acts_with_few_true(const ir::Buffer& buffer, std::int64_t least_places);
 
+// `least_places` of loops and sums that visit the true bools alone.
+inline constexpr std::int64_t least_per_visit = 16;
 // `least_places` of loops that compute the chosen objects alone: one object alone takes about as
 // long as that many in registers. The runtime computes all objects if an action chooses more.
 inline constexpr std::int64_t least_per_chosen = 8;

@@ -4,6 +4,7 @@
 #include "ir/nest.hpp"
 #include "ir/rewrite.hpp"
 #include "ir/row_of_bools.hpp"
+#include "passes/analyses/few_true.hpp"
 
 #include <algorithm>
 #include <array>
@@ -207,7 +208,9 @@ class Choices {
     }
 
     bool over_true(const ir::Reduce& reduce) const {
-        return ir::row_of_bools(program_, reduce) != nullptr;
+        const ir::Load* const table = ir::table_of_bools(program_, reduce);
+        return ir::row_of_bools(program_, reduce) ||
+               (table && begins_with_few_true(program_[table->buffer], least_per_visit));
     }
 
     ir::Evaluated evaluated(const ir::Select& select) const {

@@ -18,8 +18,6 @@
 namespace rddlc::passes {
 namespace {
 
-// Initially, at most one of so many is true.
-constexpr std::int64_t least_per_true = 16;
 // More objects that one bool affects, on average, take longer than all in registers.
 constexpr std::int64_t most_affected = 8;
 
@@ -61,7 +59,7 @@ class Affecting {
     bool is_few(ir::BufferId id, const ir::Nest& nest) const {
         const ir::Buffer& buffer = program_[id];
         return buffer.count() == ir::combinations(program_, nest.variables) &&
-               begins_with_few_true(buffer, least_per_true);
+               begins_with_few_true(buffer, least_per_visit);
     }
 
     // An object's own element, or one that its place chooses.

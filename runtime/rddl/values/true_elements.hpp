@@ -1,4 +1,4 @@
-// Sums over a row of bools in which the true ones alone count.
+// Sums over a row or table of bools in which the true ones alone count.
 //
 // One environment looks up which ones are true, 64 at a time, and visits no others. Packs of
 // environments visit those that are true in one of theirs if the terms take long, else all.
@@ -19,8 +19,18 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 
 namespace rddl {
+
+// Holds the true elements of a row or table for a visit: the place of the first one, or n where all
+// are false, and the bits of the others in words. Mostly there are no others.
+template <std::size_t n>
+struct TrueElements {
+    Index first = static_cast<Index>(n);
+    std::array<std::uint64_t, (n + 63) / 64> others;
+    bool has_others = false;
+};
 
 namespace detail {
 
@@ -31,6 +41,23 @@ RDDL_INLINE void for_each_word(const std::array<bool, n>& row, Visit&& visit) {
     for (Index first = 0; first < size; first += 64)
         visit(first, simd::bits_of_stored_bytes(
                          row.data() + first, static_cast<int>(std::min<Index>(64, size - first))));
+}
+
+template <class Table>
+RDDL_INLINE auto true_elements_of(const Table& table) {
+    TrueElements<static_cast<std::size_t>(element_count<Table>)> elements{.others =
+                                                                              words_of(table)};
+    bool is_found = false;
+    Index first_of_word = 0;
+    for (std::uint64_t& bits : elements.others) {
+        const bool is_here = !is_found && bits != 0;
+        if (is_here) elements.first = first_of_word + __builtin_ctzll(bits);
+        bits = is_here ? bits & (bits - 1) : bits;
+        elements.has_others |= bits != 0;
+        is_found |= is_here;
+        first_of_word += 64;
+    }
+    return elements;
 }
 
 }  // namespace detail
@@ -94,29 +121,48 @@ RDDL_INLINE T sum_over_true(Context<L>& context, const std::array<Mask<width>, n
     return total;
 }
 
-// Holds the true elements of a row for a visit: the index of the first one, or n where all are
-// false, and the bits of the others in words. Mostly there are no others. Packs take the row as it
-// is.
-template <std::size_t n>
-struct TrueElements {
-    Index first = static_cast<Index>(n);
-    std::array<std::uint64_t, (n + 63) / 64> others;
-    bool has_others = false;
-};
+// The sum of sums, one for each row of a table, over body(x, y) of its true elements. A row without
+// any would add 0.0. In packs the rows are summed up as above.
+template <class T, std::size_t m, std::size_t n, class Body>
+RDDL_INLINE T sum_over_true(const std::array<std::array<bool, n>, m>& table, Body&& body) {
+    constexpr Index size = static_cast<Index>(n);
+    const auto elements = detail::true_elements_of(table);
+    if (elements.first == static_cast<Index>(m * n)) return T{0};
+    Index row = elements.first / size;
+    T total{0}, of_row = detail::plus(T{0}, body(row, elements.first % size));
+    detail::for_each_one(elements.others, [&](Index place) RDDL_INLINE_LAMBDA {
+        const Index x = place / size;
+        if (x != row) total = detail::plus(total, std::exchange(of_row, T{0}));
+        row = x;
+        of_row = detail::plus(of_row, body(x, place % size));
+    });
+    return detail::plus(total, of_row);
+}
+template <class T, class R, std::size_t m, std::size_t n, class Body>
+RDDL_INLINE T sum_over_true(Context<ScalarOf<R>>&, const std::array<std::array<bool, n>, m>& table,
+                            Body&& body) {
+    return sum_over_true<T>(table, body);
+}
+template <class T, std::size_t m, std::size_t n, int width, class Body>
+RDDL_INLINE T sum_over_true(const std::array<std::array<Mask<width>, n>, m>& table, Body&& body) {
+    return sum<T>(static_cast<Index>(m), [&](Index x) RDDL_INLINE_LAMBDA {
+        return sum_over_true<T>(table[static_cast<std::size_t>(x)],
+                                [&](Index y) { return body(x, y); });
+    });
+}
+template <class T, class L, std::size_t m, std::size_t n, int width, class Body>
+RDDL_INLINE T sum_over_true(Context<L>& context,
+                            const std::array<std::array<Mask<width>, n>, m>& table, Body&& body) {
+    return sum<T>(static_cast<Index>(m), [&](Index x) RDDL_INLINE_LAMBDA {
+        return sum_over_true<T>(context, table[static_cast<std::size_t>(x)],
+                                [&](Index y) { return body(x, y); });
+    });
+}
+
+// The true elements of a row for a visit; packs take the row as it is.
 template <std::size_t n>
 RDDL_INLINE TrueElements<n> true_elements(const std::array<bool, n>& row) {
-    TrueElements<n> elements{.others = words_of(row)};
-    bool is_found = false;
-    Index first_of_word = 0;
-    for (std::uint64_t& bits : elements.others) {
-        const bool is_here = !is_found && bits != 0;
-        if (is_here) elements.first = first_of_word + __builtin_ctzll(bits);
-        bits = is_here ? bits & (bits - 1) : bits;
-        elements.has_others |= bits != 0;
-        is_found |= is_here;
-        first_of_word += 64;
-    }
-    return elements;
+    return detail::true_elements_of(row);
 }
 template <std::size_t n, int width>
 RDDL_INLINE const std::array<Mask<width>, n>& true_elements(const std::array<Mask<width>, n>& row) {

@@ -104,6 +104,39 @@ TEST(HoistAggregations, UsesTablesOfEarlierStatements) {
               "sum[i in color](state.price[i] * scratch.sold-by-color[i])");
 }
 
+// OWNER chooses one of two pairs for each of twenty objects.
+std::string step_with_owners(const std::string& cpf_of_v, Pass pass) {
+    std::string owners = "RISK(b1, @red) = 0.25;";
+    for (int k = 1; k <= 20; ++k)
+        owners += " OWNER(b" + std::to_string(k) + ") = @a" + std::to_string(1 + k % 2) + ";";
+    const Problem problem = {
+        .pvariables =
+            "OWNER(obj) : { non-fluent, pair };\n"
+            "RISK(obj, color) : { non-fluent, real, default = 0.5 };\n"
+            "at(pair, obj, color) : { state-fluent, bool, default = false };\n"
+            "v(obj) : { state-fluent, real, default = 0.0 };",
+        .cpfs = "v'(?t) = " + cpf_of_v + ";\nat'(?o, ?x, ?y) = at(?o, ?x, ?y);",
+        .non_fluents = owners};
+    const ir::Program before = grounded_with_many(problem);
+    return step_text(pass ? after(pass, before) : before);
+}
+
+TEST(HoistAggregations, FillsATableFromWhichAConstantChooses) {
+    EXPECT_NE(step_with_owners("sum_{?x : obj, ?y : color} [at(OWNER(?t), ?x, ?y) * RISK(?x, ?y)]",
+                               passes::hoist_aggregations)
+                  .find("for pair in pair\n"
+                        "    scratch.v-by-pair[pair] = sum[x in obj](sum[y in color]("
+                        "real(state.at[pair, x, y]) * RISK[x, y]))\n"
+                        "for t in obj\n"
+                        "    next.v[t] = scratch.v-by-pair[OWNER[t]]\n"),
+              std::string::npos);
+}
+
+TEST(HoistAggregations, LeavesSumsThatAlsoNeedTheObjectItself) {
+    const std::string sum = "sum_{?x : obj, ?y : color} [at(OWNER(?t), ?x, ?y) * RISK(?t, ?y)]";
+    EXPECT_EQ(step_with_owners(sum, passes::hoist_aggregations), step_with_owners(sum, nullptr));
+}
+
 TEST(HoistAggregations, LeavesWhatMayFault) {
     const ir::Program before = grounded(
         shop("sum_{?i : color} [by(?p, ?i) ^ (exists_{?c : pair} [Bernoulli(price(?i))])]"));

@@ -46,6 +46,22 @@ TEST(SkipZeroTerms, ComputesAlsoCheapTermsOfRows) {
               "sum[r in obj](sum[o in obj](state.v[o] * real(state.q[o, r])))");
 }
 
+// Nor does it visit false bools of a table of two dimensions, if few are true.
+TEST(SkipZeroTerms, ComputesAlsoCheapTermsOfTablesWithFewTrueBools) {
+    const auto skipping_table = [](const std::string& init_state) {
+        Problem problem = with_tables("sum_{?r : obj, ?o : obj} [v(?o) * q(?o, ?r)]");
+        problem.pvariables += "\nq(obj, obj) : { state-fluent, bool, default = false };";
+        problem.cpfs += "\nq'(?o, ?r) = q(?o, ?r);";
+        problem.non_fluents.clear();
+        problem.init_state = init_state;
+        const ir::Program program = grounded_with_many(problem);
+        return of_x(program.moderate ? **program.moderate : program, passes::skip_zero_terms).after;
+    };
+    EXPECT_EQ(skipping_table("q(b1, b2) = true;"),
+              "sum[r in obj](sum[o in obj](select(state.q[o, r], state.v[o], 0.0)))");
+    EXPECT_EQ(skipping_table(""), "sum[r in obj](sum[o in obj](state.v[o] * real(state.q[o, r])))");
+}
+
 // Terms are left if they are cheap, may be inf or nan, draw, or are not part of a sum.
 TEST(SkipZeroTerms, LeavesOtherTerms) {
     for (const char* cpf :

@@ -152,6 +152,36 @@ TEST(ChooseEvaluation, VisitsTrueElementsOfRowsAlone) {
               "sum over true[w in obj](select both(state.q[w], 3, 0))");
 }
 
+// The same goes for tables of two dimensions, if few are true initially: for q, but not for p.
+TEST(ChooseEvaluation, VisitsTrueElementsOfTables) {
+    const auto chosen_for_tables = [](const std::string& table) {
+        const Problem problem = {
+            .pvariables =
+                "p(obj, obj) : { state-fluent, bool, default = false };\n"
+                "q(obj, obj) : { state-fluent, bool, default = false };\n"
+                "v(obj) : { state-fluent, real, default = 0.0 };\n"
+                "x : { interm-fluent, real };",
+            .cpfs = "x = sum_{?o : obj, ?w : obj} [if (" + table +
+                    ") then v(?o) else 0.0];\np'(?o, ?w) = p(?o, ?w);\nq'(?o, ?w) = q(?o, ?w);\n"
+                    "v'(?o) = v(?o);",
+            .init_state = "q(b1, b2);"};
+        passes::Report report;
+        const ir::Program program =
+            valid(passes::choose_evaluation(grounded_with_many(problem), report));
+        const std::string text = ir::print(program);
+        const std::size_t begin = text.find("scratch.x = ") + 12;
+        return text.substr(begin, text.find("\n", begin) - begin);
+    };
+    EXPECT_EQ(chosen_for_tables("q(?o, ?w)"),
+              "sum over true[o in obj](sum over true[w in obj](select both(state.q[o, w], "
+              "state.v[o], 0.0)))");
+    EXPECT_EQ(
+        chosen_for_tables("p(?o, ?w)"),
+        "sum[o in obj](sum over true[w in obj](select both(state.p[o, w], state.v[o], 0.0)))");
+    EXPECT_EQ(chosen_for_tables("q(?w, ?o)"),
+              "sum[o in obj](sum[w in obj](select both(state.q[w, o], state.v[o], 0.0)))");
+}
+
 // Columns, constants, parts of terms, other zeros and elements that the state chooses are no rows.
 TEST(ChooseEvaluation, VisitsAllElementsOfOtherSums) {
     for (const char* cpf : {"sum_{?w : obj} [if (p(?o, ?w)) then v(?w) else -0.0]",

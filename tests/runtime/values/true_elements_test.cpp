@@ -81,6 +81,40 @@ TEST(TrueElements, AreCountedAndAdded) {
     expect_sums<130>();
 }
 
+// Each row of a table has a sum of its own, also one that crosses a word.
+TEST(TrueElements, AreAddedRowByRow) {
+    constexpr std::size_t m = 11, n = 9;
+    const auto term = [](Index x, Index y) {
+        return term_of(static_cast<Index>(n) * x + y);
+    };
+    Context<Pack<width>> context{};
+    context.active = Mask<width>(true);
+    for (std::size_t kind = 0; kind < 12; ++kind) {
+        const Rows<m* n> places = rows_with<m * n>(kind);
+        std::array<std::array<Mask<width>, n>, m> masks;
+        std::array<std::array<std::array<bool, n>, m>, width> tables;
+        for (std::size_t i = 0; i < m * n; ++i)
+            for (std::size_t lane = 0; lane < width; ++lane) {
+                tables[lane][i / n][i % n] = places[lane][i];
+                masks[i / n][i % n].set(static_cast<int>(lane), places[lane][i]);
+            }
+        const auto sums = sum_over_true<Pack<width>::Real>(masks, term);
+        const auto jumping = sum_over_true<Pack<width>::Real>(context, masks, term);
+        for (std::size_t lane = 0; lane < width; ++lane) {
+            const auto total = sum<double>(static_cast<Index>(m), [&](Index x) {
+                return sum<double>(static_cast<Index>(n), [&](Index y) {
+                    const auto place =
+                        n * static_cast<std::size_t>(x) + static_cast<std::size_t>(y);
+                    return places[lane][place] ? term(x, y) : 0.0;
+                });
+            });
+            EXPECT_EQ(sum_over_true<double>(tables[lane], term), total) << kind;
+            EXPECT_EQ(sums[static_cast<int>(lane)], total) << kind;
+            EXPECT_EQ(jumping[static_cast<int>(lane)], total) << kind;
+        }
+    }
+}
+
 TEST(TrueElements, GiveNoNegativeZero) {
     const std::array<bool, 3> row{true, false, true};
     EXPECT_FALSE(std::signbit(sum_over_true<double>(row, [](Index) { return -0.0; })));
