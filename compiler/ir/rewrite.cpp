@@ -193,6 +193,14 @@ NodeId replace_in(Builder& builder, NodeId id, std::map<NodeId, NodeId>& known, 
     return known[id] = builder.rebuild(node);
 }
 
+void replace_in_step(Builder& builder, Program& program, std::map<NodeId, NodeId>& known) {
+    const Change change = [&](NodeId& root) {
+        root = replace_in(builder, root, known);
+    };
+    for (Definition& definition : program.step) change_roots(definition.body, change);
+    change_roots(program.reward, change);
+}
+
 NodeId replace_reductions_in(Builder& builder, NodeId value, const Find& find) {
     std::map<NodeId, NodeId> known;
     return replace_in(builder, value, known, [&](NodeId id) -> std::optional<NodeId> {

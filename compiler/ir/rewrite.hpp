@@ -26,6 +26,8 @@ NodeId replace_in(Builder& builder, NodeId id, std::map<NodeId, NodeId>& known);
 // with replacements in its operands. So the outermost nodes with a replacement are replaced.
 using Find = std::function<std::optional<NodeId>(NodeId)>;
 NodeId replace_in(Builder& builder, NodeId id, std::map<NodeId, NodeId>& known, const Find& find);
+// The same in all that the CPFs of a step and its reward name.
+void replace_in_step(Builder& builder, Program& program, std::map<NodeId, NodeId>& known);
 // A value outside of loops in which `find` looks at the outermost reductions alone, and not at
 // those in branches, which are not always evaluated.
 NodeId replace_reductions_in(Builder& builder, NodeId value, const Find& find);

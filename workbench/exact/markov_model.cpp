@@ -54,13 +54,15 @@ class Expansion {
         find_legal(state);
         // Where no action is legal, one of them is taken nevertheless.
         const bool asks = std::ranges::find(legal_, true) != legal_.end();
+        std::size_t bytes = 0;
         for (std::uint32_t a = 0; a < legal_.size(); ++a) {
             if (asks && !legal_[a]) continue;
             choices.emplace_back();
             choices.back().action = a;
             if (!play(state, actions_.data() + a * action_size_, choices.back()))
                 choices.pop_back();
-            require_memory(memory_of(choices));
+            else
+                require_memory(bytes += choices.back().memory());
         }
         if (choices.empty())
             throw Failure("in a state that can be reached each action may lead to a fault",
@@ -251,7 +253,7 @@ class Builder {
     MarkovModel model_;
     std::vector<std::vector<Choice>> expanded_;
     std::size_t block_ = 0;
-    Progress bar_{"listing states", 1};  // of those that are known by now
+    Progress bar_{"listing states", 1};   // of those that are known by now
     std::size_t room_ = 1, largest_ = 1;  // states of a block, and bytes of what one leads to
 };
 

@@ -57,12 +57,7 @@ class Grouping {
             calls.push_back(together({&found_[first], &found_[first] + count}, known));
         }
         report_["sines and cosines computed together"] += std::ssize(found_);
-        const ir::Change change = [&](ir::NodeId& root) {
-            root = ir::replace_in(builder_, root, known);
-        };
-        for (ir::Definition& definition : program_.step) ir::change_roots(definition.body, change);
-        ir::change_roots(program_.reward.body, change);
-        change(program_.reward.value);
+        ir::replace_in_step(builder_, program_, known);
         program_.step.insert(program_.step.begin(), calls.begin(), calls.end());
     }
 

@@ -35,12 +35,7 @@ class Pairing {
         for (const ir::NodeId angle : in_order_)
             if (is_worth_it(angle)) fills.push_back(fill(angle, known));
         if (fills.empty()) return std::move(program_);
-        const ir::Change change = [&](ir::NodeId& root) {
-            root = ir::replace_in(builder_, root, known);
-        };
-        for (ir::Definition& definition : program_.step) ir::change_roots(definition.body, change);
-        ir::change_roots(program_.reward.body, change);
-        change(program_.reward.value);
+        ir::replace_in_step(builder_, program_, known);
         program_.step.insert(program_.step.begin(), fills.begin(), fills.end());
         return ir::collect_garbage(std::move(program_));
     }

@@ -192,12 +192,7 @@ class DefinitionSharing {
             ++report_["expressions computed once for several CPFs"];
         }
         if (shared_.empty()) return;
-        const ir::Change change = [&](ir::NodeId& root) {
-            root = ir::replace_in(builder_, root, known);
-        };
-        for (ir::Definition& definition : program_.step) ir::change_roots(definition.body, change);
-        ir::change_roots(program_.reward.body, change);
-        change(program_.reward.value);
+        ir::replace_in_step(builder_, program_, known);
         for (auto& [user, fill] : fills) {
             ir::Block& body = body_of(user);
             std::ranges::move(body, std::back_inserter(fill));
