@@ -59,9 +59,9 @@ struct Command {
 ExitStatus run_command_line(const Command& program, const std::string& version, int argc,
                             char** argv);
 
-// "rddl run" is the place of `command` in the program.
 // A name, and on its right the explanation, in lines that fit the page.
 std::string help_entry(const std::string& name, const std::string& explanation);
+// "rddl run" is the place of `command` in the program.
 std::string help_text(const Command& command, const std::string& full_name);
 
 // The completions for bash, zsh or fish; another shell is a UsageError.

@@ -14,6 +14,13 @@ class TrainPlan : public Program {
     Outcome plan(const std::string& options, const std::string& environment = "") const {
         return run("train plan domain.rddl instance.rddl" + options + interpreted, environment);
     }
+    // A domain d, and an instance of six steps.
+    void write_problem(const std::string& domain) const {
+        write_file(folder_ / "domain.rddl", domain);
+        write_file(folder_ / "instance.rddl",
+                   "non-fluents n { domain = d; }\n"
+                   "instance i { domain = d; non-fluents = n; horizon = 6; discount = 1.0; }\n");
+    }
     bool has_plan() const { return std::filesystem::exists(folder_ / "plan.jsonl"); }
 };
 
@@ -31,14 +38,10 @@ TEST_F(TrainPlan, notes_that_no_time_finds_the_default_actions) {
 }
 
 TEST_F(TrainPlan, RefusesAnEpisodeThatIsOverAtOnce) {
-    write_file(
-        folder_ / "domain.rddl",
+    write_problem(
         "domain d { pvariables { depth : { state-fluent, real, default = 0.0 };\n"
         "  fill : { action-fluent, real, default = 0.0 }; };\n"
         "  cpfs { depth' = depth + fill; }; reward = depth; termination { depth == 0; }; }\n");
-    write_file(folder_ / "instance.rddl",
-               "non-fluents n { domain = d; }\n"
-               "instance i { domain = d; non-fluents = n; horizon = 6; discount = 1.0; }\n");
     const Outcome outcome = plan(" --out plan.jsonl --iterations 2");
     EXPECT_EQ(outcome.status, 1);
     expect_part(outcome.err, "the episode is over before its first action");
@@ -47,14 +50,11 @@ TEST_F(TrainPlan, RefusesAnEpisodeThatIsOverAtOnce) {
 
 // Adam squares them.
 TEST_F(TrainPlan, LeavesOutDerivativesWhoseSquaresAreInfinite) {
-    write_file(folder_ / "domain.rddl",
-               "domain d { pvariables { depth : { state-fluent, real, default = 0.0 };\n"
-               "  fill : { action-fluent, real, default = 0.0 }; };\n"
-               "  cpfs { depth' = depth + fill; }; reward = 1e160 * depth;\n"
-               "  action-preconditions { fill >= 0; fill <= 1; }; }\n");
-    write_file(folder_ / "instance.rddl",
-               "non-fluents n { domain = d; }\n"
-               "instance i { domain = d; non-fluents = n; horizon = 6; discount = 1.0; }\n");
+    write_problem(
+        "domain d { pvariables { depth : { state-fluent, real, default = 0.0 };\n"
+        "  fill : { action-fluent, real, default = 0.0 }; };\n"
+        "  cpfs { depth' = depth + fill; }; reward = 1e160 * depth;\n"
+        "  action-preconditions { fill >= 0; fill <= 1; }; }\n");
     const Outcome outcome = plan(" --out plan.jsonl --iterations 5 --std=rddlc");
     EXPECT_EQ(outcome.status, 0) << outcome.err;
     expect_part(outcome.out, "plan.jsonl");
@@ -63,14 +63,11 @@ TEST_F(TrainPlan, LeavesOutDerivativesWhoseSquaresAreInfinite) {
 
 // A plan pumps whatever the water is, so that its steps break the precondition in some episodes.
 TEST_F(TrainPlan, counts_steps_that_violate_preconditions) {
-    write_file(folder_ / "domain.rddl",
-               "domain d { pvariables { depth : { state-fluent, real, default = 0.0 };\n"
-               "  fill : { action-fluent, real, default = 0.0 }; };\n"
-               "  cpfs { depth' = Uniform(0.0, 3.0); }; reward = fill;\n"
-               "  action-preconditions { fill >= 0; fill <= 1; fill > 0 => depth <= 2; }; }\n");
-    write_file(folder_ / "instance.rddl",
-               "non-fluents n { domain = d; }\n"
-               "instance i { domain = d; non-fluents = n; horizon = 6; discount = 1.0; }\n");
+    write_problem(
+        "domain d { pvariables { depth : { state-fluent, real, default = 0.0 };\n"
+        "  fill : { action-fluent, real, default = 0.0 }; };\n"
+        "  cpfs { depth' = Uniform(0.0, 3.0); }; reward = fill;\n"
+        "  action-preconditions { fill >= 0; fill <= 1; fill > 0 => depth <= 2; }; }\n");
     const Outcome outcome = plan(" --out plan.jsonl --iterations 30 --episodes 50");
     EXPECT_EQ(outcome.status, 0) << outcome.err;
     expect_part(outcome.err, "steps of 'plan.jsonl' violate preconditions");

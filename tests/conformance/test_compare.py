@@ -22,7 +22,7 @@ def example(name: str) -> Case:
 
 @cache
 def recorded(name: str) -> Recording:
-    """Nobody changes it, so all tests share it: recording is most of their time."""
+    """All tests share it, since recording takes most of their time. They must not change it."""
     return record(example(name), PLAN)
 
 

@@ -21,6 +21,8 @@ struct PlannerSettings {
     std::function<void(const planners::Explanation&)> explain = {};
     // Derivatives of steps (engines/step_derivatives.hpp), for planners that need them.
     solvers::DerivativesSource derivatives = {};
+
+    bool explain_on_standard_output() const { return explanations == "-"; }
 };
 
 // A file with a line of JSON for each decision, in the order of episodes and steps.

@@ -249,7 +249,7 @@ ExitStatus evaluate_all(const EvaluationOptions& options) {
     explanations.finish();
     if (options.json)
         print_json(files, all, optimum, options);
-    else if (options.planning.explanations != "-")
+    else if (!options.planning.explain_on_standard_output())
         print_table(*simulator.problem, all, optimum, options);
     const bool has_episodes = std::any_of(
         all.begin(), all.end(), [](const Evaluation& one) { return one.summary.episodes > 0; });

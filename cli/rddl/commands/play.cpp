@@ -147,7 +147,7 @@ ExitStatus play(PlayCommandOptions options) {
     const auto finish = [&] {
         explanations.write(options.policy);
         explanations.finish();
-        if (options.json || options.planning.explanations != "-")
+        if (options.json || !options.planning.explain_on_standard_output())
             report(played, *simulator.problem, options,
                    std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
     };

@@ -245,7 +245,7 @@ ExitStatus run(const RunOptions& options) {
     if (options.json)
         print_json(options, summary, rollouts, problem, explainer);
     else if (!options.quiet && options.trace != "-" &&
-             options.rollouts.planning.explanations != "-" &&
+             !options.rollouts.planning.explain_on_standard_output() &&
              !options.pictures.any_on_standard_output())
         print_summary(options, summary, rollouts, problem, explainer);
     if (rollouts.first_fault) report_faults(summary, *rollouts.first_fault);
