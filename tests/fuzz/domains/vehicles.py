@@ -1,9 +1,14 @@
-"""Vehicles in the plane: angles, distances that are only compared, obstacles one of which may be hit."""
+"""Vehicles in the plane: angles, distances that are only compared, obstacles one of which may be hit. Fleets, all of whose vehicles turn."""
 
 from domains.draft import ACTION, CONSTANT, STATE, Draft, boolean, over, real
 
 
 def add(draft: Draft) -> None:
+    for part in draft.pick([[one], [one], [fleet], [one, fleet]]):
+        part(draft)
+
+
+def one(draft: Draft) -> None:
     obstacle = draft.objects("obstacle", main=True)
     x, y, heading, speed = (draft.declare(name, STATE, "real") for name in ("x", "y", "heading", "speed"))
     turn, gas = draft.declare("turn", ACTION, "real", default="0.0"), draft.declare("gas", ACTION, "real", default="0.0")
@@ -29,16 +34,37 @@ def add(draft: Draft) -> None:
         draft.earn(over(draft.pick(["sum", "min", "max"]), "?o", obstacle, boolean("%s", test) if draft.chance(0.5) else distance(draft, x, y, at_x, at_y)))
 
 
+def fleet(draft: Draft) -> None:
+    """The sine and the cosine of a vehicle's heading stand in different CPFs."""
+    vehicle = draft.objects("vehicle", main=True)
+    x, y, heading = (draft.declare(name, STATE, "real", vehicle) for name in ("fleet-x", "fleet-y", "fleet-heading"))
+    turn = draft.declare("fleet-turn", ACTION, "real", *draft.pick([(), (vehicle,)]), default="0.0")
+    own = {"?v": vehicle}
+    turned_by = draft.at(turn, *["?v"] * len(turn.parameters))
+    directions = [draft.at(heading, "?v"), real("(%s + %s)", draft.at(heading, "?v"), turned_by)]
+    directions = draft.pick([directions, directions[:1], directions[1:]])
+    for fluent, function in ((x, "cos"), (y, "sin"), (heading, draft.pick(["cos", "sin"]))):
+        step = turned(draft, function, directions)
+        if draft.chance(0.3):
+            step = real("(if (%s) then %s else %s)", draft.some_bool(own), step, draft.some_real(own))
+        if draft.chance(0.3):
+            step = real("(%s * %s)", draft.some_real(own), step)
+        draft.define(fluent, ("?v",), real("max[-8.0, min[8.0, %s + 0.5 * %s]]", draft.at(fluent, "?v"), step))
+    draft.earn(draft.revealed(over(draft.pick(["sum", "max", "min"]), "?v", vehicle, draft.at(draft.pick([x, y, heading]), "?v", prime=draft.chance(0.5)))))
+    if draft.chance(0.5):
+        draft.earn(over("sum", "?v", vehicle, turned(draft, draft.pick(["cos", "sin"]), directions)))
+
+
 def move(draft: Draft, fluent, change) -> None:
     draft.define(fluent, (), real("max[-8.0, min[8.0, %s + 0.5 * %s]]", draft.at(fluent), change))
 
 
 def turned(draft: Draft, function: str, directions):
-    """A sine or cosine, also of another angle, where functions need not be exact."""
+    """A sine or cosine, perhaps times one of another angle, where functions need not be exact."""
     if draft.problem.flavour == "plain":
         return draft.pick(directions)
     other = draft.pick(["sin[%s]", "cos[%s]"])
-    return draft.pick([real(f"{function}[%s]", draft.pick(directions)), real(f"({function}[%s] * {other})", *draft.rng.sample(directions, 2))])
+    return draft.pick([real(f"{function}[%s]", draft.pick(directions)), real(f"({function}[%s] * {other})", *draft.rng.choices(directions, k=2))])
 
 
 def distance(draft: Draft, x, y, at_x, at_y):
