@@ -167,7 +167,7 @@ tree::Statement draws_of_step(const StepDraws& draws) {
     }
     return {.form = tree::Assign{tree::declared("inline constexpr std::array", "step_draws"),
                                  tree::braces("", std::move(rows))},
-            .comment = "what every step draws; the numbers are made together"};
+            .comment = "draws of every step, whose numbers are made together"};
 }
 
 std::string tables(const Unit& unit, const Unit* around) {
