@@ -93,6 +93,18 @@ struct Lanes {
     Vector part[part_count];
 
     Lanes() = default;
+    // Several registers are copied one by one. GCC copies structs in pieces of the size that -mtune
+    // prefers, 16 or 32 bytes with many a -march=native, and a load of 64 bytes waits for pieces
+    // that have just been stored. The bytes of lanes may also be copied, as records are.
+    Lanes(const Lanes&) = default;
+    RDDL_INLINE Lanes(const Lanes& other) requires(part_count > 1) {
+        copy_parts(other, std::make_index_sequence<part_count>());
+    }
+    Lanes& operator=(const Lanes&) = default;
+    RDDL_INLINE Lanes& operator=(const Lanes& other) requires(part_count > 1) {
+        copy_parts(other, std::make_index_sequence<part_count>());
+        return *this;
+    }
     template <class Number>
     requires std::is_arithmetic_v<Number> &&(!std::same_as<Number, bool>)  //
         RDDL_INLINE Lanes(Number everywhere)
@@ -185,6 +197,10 @@ struct Lanes {
         Lanes result;
         ((result.part[p] = one_part<p>(operation, operands...)), ...);
         return result;
+    }
+    template <std::size_t... p>
+    RDDL_INLINE void copy_parts(const Lanes& other, std::index_sequence<p...>) {
+        ((part[p] = other.part[p]), ...);
     }
     template <std::size_t p, class Operation, class... Operands>
     static RDDL_INLINE Vector one_part(Operation operation, const Operands&... operands) {

@@ -80,10 +80,10 @@ struct Compiled {
     using Scratch = typename Simulator::template Scratch<L>;
     using Observation = typename Simulator::template Observation<L>;
     using Memory = typename Policy::template Memory<L>;
-    static_assert(std::is_trivially_copyable_v<State> && std::is_trivially_copyable_v<Action> &&
-                  std::is_trivially_copyable_v<Scratch> &&
-                  std::is_trivially_copyable_v<Observation> &&
-                  std::is_trivially_copyable_v<Memory>);
+    // The records of one environment are the callers', who copy their bytes.
+    template <class... Records>
+    static constexpr bool are_bytes = (std::is_trivially_copyable_v<Records> && ...);
+    static_assert(L::width > 1 || are_bytes<State, Action, Scratch, Observation, Memory>);
 
     static constexpr bool has_state_tables = has_tables(problem, RDDL_STATE);
     static constexpr bool has_large_states =
