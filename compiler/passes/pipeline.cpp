@@ -20,6 +20,7 @@
 #include "passes/aggregations/set_bits.hpp"
 #include "passes/aggregations/skip_zero_terms.hpp"
 #include "passes/aggregations/tabulate_counts.hpp"
+#include "passes/aggregations/tabulate_draws.hpp"
 #include "passes/aggregations/tabulate_products.hpp"
 #include "passes/aggregations/tabulate_sums.hpp"
 #include "passes/aggregations/tabulate_thresholds.hpp"
@@ -236,6 +237,12 @@ constexpr Pass in_order[] = {
      {"count_bools", "make_aggregations_sparse"},
      "a sparse row bounds its count, so that the table is small",
      may_find_more},
+    {"tabulate_draws",
+     Phase::Aggregations,
+     tabulate_draws,
+     "an expression of a draw and a table's element becomes a table of both",
+     {"tabulate_counts"},
+     "it has made such elements"},
     {"straighten_rows",
      Phase::Arithmetic,
      straighten_rows,

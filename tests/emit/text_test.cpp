@@ -172,6 +172,22 @@ TEST(EmittedText, MakesTheNumbersOfCertainDrawsTogether) {
     EXPECT_EQ(count(with_objects(9, "Bernoulli(0.25)"), "StepNumbers"), 0u);
 }
 
+// A loop that visits its objects one by one is worth a row alone. Both branches make the draw.
+TEST(EmittedText, MakesTheNumbersOfAPlainLoopTogether) {
+    const auto with_objects = [](int count) {
+        std::string text = problem(count);
+        text.replace(text.find("a(o) :"), 0,
+                     "v(o) : { state-fluent, int, default = 0 };\n"
+                     "t : { state-fluent, int, default = 0 };\n");
+        text.replace(text.find("on(?o) ^ Bernoulli(0.5) | a(?o);"), 32,
+                     "a(?o); t' = t + 1;\n"
+                     "v'(?o) = min[floor[8.0 * sin[t + W(?o)] + Bernoulli(0.5)], 5];\n");
+        return emitted(text);
+    };
+    EXPECT_EQ(count(with_objects(5), "rddl::place_in_row<0>(numbers, 0, o)"), 2u);
+    EXPECT_EQ(count(with_objects(2), "StepNumbers"), 0u) << "packs make those of two objects alone";
+}
+
 // Two of 17 at most. The others keep their bools, and draw nothing.
 TEST(EmittedText, ComputesTheObjectsThatAnActionChooses) {
     std::string text = problem(17);

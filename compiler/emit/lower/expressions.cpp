@@ -266,7 +266,7 @@ Expression Expressions::call(std::string_view function, const std::vector<ir::No
 tree::Expressions Expressions::place_of_draw(const ir::Place& place,
                                              std::optional<Distribution> distribution) {
     const auto where = unit_.step_draws.find(place);
-    if (where && where->lane.has_value() != several_.has_value()) {
+    if (where && where->over_several == several_.has_value()) {
         uses_.context = true;
         return {word(context()), place_in_step(place, *where)};
     }

@@ -14,7 +14,7 @@ namespace {
 // The numbers of a row: two for each of its counters.
 constexpr std::size_t counters_of_row = 4;
 constexpr std::int64_t objects_of_row = 2 * counters_of_row;
-// A single row would be made where it is used as well.
+// A single row would be made where it is used as well, unless objects are visited one by one.
 constexpr std::size_t least_rows = 2;
 
 // Calls take(place) for the draws by one number that an evaluation certainly makes.
@@ -32,7 +32,8 @@ class CertainDraws {
             node.form,
             [&](const ir::Select& select) {
                 in(select.condition);
-                if (select.evaluated != ir::Evaluated::Both) return;
+                if (select.evaluated != ir::Evaluated::Both)
+                    return in_both(select.then_value, select.else_value);
                 in(select.then_value);
                 in(select.else_value);
             },
@@ -58,6 +59,20 @@ class CertainDraws {
     }
 
   private:
+    // Only one of them is evaluated.
+    void in_both(ir::NodeId a, ir::NodeId b) {
+        const std::vector<ir::Place> of_a = draws_of(a), of_b = draws_of(b);
+        for (const ir::Place& place : of_a)
+            if (std::ranges::find(of_b, place) != of_b.end()) take_(place);
+    }
+    std::vector<ir::Place> draws_of(ir::NodeId id) const {
+        std::vector<ir::Place> places;
+        CertainDraws<std::function<void(const ir::Place&)>> draws(
+            program_, over_several_, [&](const ir::Place& place) { places.push_back(place); });
+        draws.in(id);
+        return places;
+    }
+
     // Chances look for themselves which objects need numbers.
     bool has_chances(ir::NodeId id) const {
         const auto* const select = std::get_if<ir::Select>(&program_[id].form);
@@ -72,10 +87,11 @@ class CertainDraws {
     std::set<ir::NodeId> seen_;
 };
 
+// Packs have a better way for the draws of two objects that are visited one by one.
 bool fills_row(const ir::Program& program, const ir::Loop& loop) {
-    return loop.several_at_once && !loop.as_words && !loop.affected && !loop.chosen &&
-           !loop.clearances &&
-           ir::combinations(program, ir::nest_of(loop).variables) <= objects_of_row;
+    const std::int64_t objects = ir::combinations(program, ir::nest_of(loop).variables);
+    return (loop.several_at_once || objects > 2) && objects <= objects_of_row && !loop.as_words &&
+           !loop.affected && !loop.chosen && !loop.clearances;
 }
 
 }  // namespace
@@ -94,12 +110,14 @@ StepDraws::StepDraws(const ir::Program& program,
         if (lone_rows.empty() || lone_rows.back().lone.size() == counters_of_row)
             lone_rows.emplace_back();
         auto& lanes = lone_rows.back().lone;
-        lone.push_back({key_of(place), {lone_rows.size() - 1, lanes.size()}});
+        lone.push_back({key_of(place), {.row = lone_rows.size() - 1, .lane = lanes.size()}});
         lanes.push_back({series_of(place), std::get<std::int64_t>(index->value)});
     };
-    const auto add_loop = [&](const ir::Nest& nest, const ir::Place& place) {
+    bool has_one_by_one = false;
+    const auto add_loop = [&](const ir::Loop& loop, const ir::Nest& nest, const ir::Place& place) {
         if (!ir::is_place_in(program, nest, place.index) || found_.contains(key_of(place))) return;
-        found_[key_of(place)] = {rows_.size()};
+        found_[key_of(place)] = {.row = rows_.size(), .over_several = loop.several_at_once};
+        has_one_by_one = has_one_by_one || !loop.several_at_once;
         rows_.push_back({.loop = series_of(place)});
     };
     for (const ir::Definition& definition : program.step) {
@@ -112,8 +130,8 @@ StepDraws::StepDraws(const ir::Program& program,
             const auto* const loop = std::get_if<ir::Loop>(&statement.form);
             if (!loop || !fills_row(program, *loop)) continue;
             const ir::Nest nest = ir::nest_of(*loop);
-            CertainDraws inside(program, true,
-                                [&](const ir::Place& place) { add_loop(nest, place); });
+            CertainDraws inside(program, loop->several_at_once,
+                                [&](const ir::Place& place) { add_loop(*loop, nest, place); });
             for (const ir::Statement& inner : *nest.body) {
                 if (const auto* let = std::get_if<ir::Let>(&inner.form)) inside.in(let->value);
                 if (const auto* store = std::get_if<ir::Store>(&inner.form))
@@ -121,9 +139,10 @@ StepDraws::StepDraws(const ir::Program& program,
             }
         }
     }
-    for (auto& [key, where] : lone) found_[key] = {where.row + rows_.size(), where.lane};
+    for (auto& [key, where] : lone)
+        found_[key] = {.row = where.row + rows_.size(), .lane = where.lane};
     std::ranges::move(lone_rows, std::back_inserter(rows_));
-    if (rows_.size() >= least_rows) return;
+    if (rows_.size() >= least_rows || has_one_by_one) return;
     rows_.clear();
     found_.clear();
 }

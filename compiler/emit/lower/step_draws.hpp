@@ -25,10 +25,12 @@ class StepDraws {
         std::vector<Counter> lone = {};
         std::optional<std::uint32_t> loop = {};
     };
-    // Where the numbers of a draw are; no lane: the draw of a loop has a row.
+    // Where the numbers of a draw are; no lane: the draw of a loop has a row. Some loops visit
+    // several objects at once.
     struct Where {
         std::size_t row;
         std::optional<std::size_t> lane = {};
+        bool over_several = false;
     };
 
     StepDraws() = default;

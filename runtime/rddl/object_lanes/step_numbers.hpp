@@ -126,6 +126,11 @@ RDDL_INLINE Lanes<R, 8> uniform_at(Context<Objects<8, R>>&, const PlaceOfRow& pl
     return unit_real<R>(interleaved(place.even, place.odd));
 }
 template <class R>
+RDDL_INLINE R uniform_at(Context<ScalarOf<R>>&, const PlaceOfRow& place) {
+    const FewWords& numbers = place.index % 2 == 0 ? place.even : place.odd;
+    return unit_real<R>(numbers.part[place.index / 2]);
+}
+template <class R>
 RDDL_INLINE R uniform_at(Context<ScalarOf<R>>&, const PlaceOfNumber& place) {
     return unit_real<R>(place.number);
 }

@@ -21,6 +21,9 @@ void expect_same_numbers(Context<Scalar> context) {
             EXPECT_EQ(in_loop[i], made[i]);
         }
     });
+    for (Index i = 0; i < 5; ++i)
+        EXPECT_EQ(uniform_at(context, place_in_row<0>(numbers, 3, i)),
+                  uniform_at(context, Place{3, i}));
     EXPECT_EQ(uniform_at(context, place_in_lane<1, 0>(numbers, 2, 0)),
               uniform_at(context, Place{2, 0}));
     EXPECT_EQ(uniform_at(context, place_in_lane<1, 1>(numbers, 9, 5)),
