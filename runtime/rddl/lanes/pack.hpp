@@ -208,10 +208,19 @@ struct Lanes {
     }
     template <class Compare>
     static RDDL_INLINE Mask<n> mask(Compare compare, const Lanes& a, const Lanes& b) {
-        std::uint64_t bits = 0;
-        for (int p = 0; p < part_count; ++p)
-            bits |= std::uint64_t{compare(a.part[p], b.part[p])} << (p * part_width);
-        return Mask<n>::of_bits(bits);
+        return Mask<n>::of_bits(mask_of_parts<0, part_count>(compare, a, b));
+    }
+    template <int first, int count, class Compare>
+    static RDDL_INLINE std::uint64_t mask_of_parts(Compare compare, const Lanes& a,
+                                                   const Lanes& b) {
+        if constexpr (count == 1) {
+            return compare(a.part[first], b.part[first]);
+        } else {
+            constexpr int half = count / 2;
+            return simd::joined<half * part_width>(
+                mask_of_parts<first, half>(compare, a, b),
+                mask_of_parts<first + half, half>(compare, a, b));
+        }
     }
 };
 

@@ -173,6 +173,18 @@ namespace detail {
     return detail::hidden(_mm512_cmp_epi64_mask((__m512i)a, (__m512i)b, _MM_CMPINT_EQ));
 }
 
+// The masks of neighbouring parts of `width` lanes each as one. They stay in mask registers, where
+// that is one instruction.
+template <int width>
+[[gnu::always_inline]] inline std::uint64_t joined(std::uint64_t low, std::uint64_t high) {
+    if constexpr (width == 8)
+        return _mm512_kunpackb(static_cast<__mmask16>(high), static_cast<__mmask16>(low));
+    if constexpr (width == 16)
+        return _mm512_kunpackw(static_cast<__mmask32>(high), static_cast<__mmask32>(low));
+    if constexpr (width == 32) return _mm512_kunpackd(high, low);
+    return low | high << width;
+}
+
 // a where the bit is set, else b.
 template <class V>
 [[gnu::always_inline]] inline V blend(MaskBits mask, V a, V b) {
@@ -216,6 +228,11 @@ template <class V>
 }
 
 }  // namespace detail
+
+template <int width>
+[[gnu::always_inline]] inline std::uint64_t joined(std::uint64_t low, std::uint64_t high) {
+    return low | high << width;
+}
 
 template <class V>
 [[gnu::always_inline]] inline MaskBits less(V a, V b) {

@@ -235,10 +235,57 @@ RDDL_ALWAYS_INLINE void read_narrow_rows(const std::byte* rows, std::int64_t row
 }
 #endif
 
+#ifdef RDDL_SIMD_SQUARES
+// By the bytes of a row: where the first bools of 16 rows lie, then the second ones, up to the
+// fourth.
+inline constexpr auto places_of_four_columns = [] {
+    struct alignas(64) {
+        std::uint8_t of[widest_narrow_row + 1][64];
+    } places{};
+    for (int size = 0; size <= widest_narrow_row; ++size)
+        for (int i = 0; i < 64; ++i)
+            places.of[size][i] = static_cast<std::uint8_t>(i % 16 * size + i / 16);
+    return places;
+}();
+// Whole columns are chosen from up to four registers of rows, so that a test makes their masks.
+RDDL_ALWAYS_INLINE void read_narrow_rows_by_bytes(const std::byte* rows, std::int64_t row_size,
+                                                  std::int64_t count, Mask<16>* masks) {
+    constexpr std::uint64_t all = ~std::uint64_t{0};
+    const std::int64_t byte_count = 15 * row_size + count;
+    __m512i bytes[4];
+    for (std::int64_t i = 0; i < 4; ++i) {
+        const std::int64_t there = std::clamp<std::int64_t>(byte_count - 64 * i, 0, 64);
+        bytes[i] = there == 0 ? _mm512_setzero_si512()
+                              : _mm512_maskz_loadu_epi8(all >> (64 - there), rows + 64 * i);
+    }
+    const __m512i first_places = _mm512_load_si512(places_of_four_columns.of[row_size]);
+#pragma GCC unroll 4
+    for (std::int64_t k = 0; k < count; k += 4) {
+        const __m512i places = simd::reinterpret<__m512i>(
+            simd::reinterpret<bit_matrix::BitColumns>(first_places) + static_cast<std::uint8_t>(k));
+        __m512i columns = byte_count > 64
+                              ? _mm512_maskz_permutex2var_epi8(all, bytes[0], places, bytes[1])
+                              : _mm512_maskz_permutexvar_epi8(all, places, bytes[0]);
+        if (byte_count > 128)
+            columns = _mm512_mask_blend_epi8(
+                _mm512_movepi8_mask(places), columns,
+                _mm512_maskz_permutex2var_epi8(all, bytes[2], places, bytes[3]));
+        const std::uint64_t bits = _mm512_test_epi8_mask(columns, columns);
+        for (std::int64_t i = 0; i < 4 && k + i < count; ++i)
+            masks[k + i] = Mask<16>::of_bits(bits >> (16 * i));
+    }
+}
+#endif
+
 // `count` bools of each of the first `present` rows; the others have false ones.
 template <int n>
 RDDL_ALWAYS_INLINE void read_bools(const std::byte* rows, std::int64_t row_size, int present,
                                    std::int64_t count, Mask<n>* masks) {
+#ifdef RDDL_SIMD_SQUARES
+    if constexpr (n == 16)
+        if (__builtin_constant_p(count * row_size) && row_size <= widest_narrow_row && present == n)
+            return read_narrow_rows_by_bytes(rows, row_size, count, masks);
+#endif
 #ifdef RDDL_SIMD_AVX512
     // Where the compiler knows the rows, few columns of them are a few instructions.
     constexpr std::int64_t most = 2 * widest_narrow_row;

@@ -373,14 +373,26 @@ RDDL_INLINE Lanes<std::int64_t, n> sign(const Lanes<T, n>& a) {
 
 // nan wins, and of equal numbers the first. Register by register, since masks over all lanes cost
 // more than the comparisons; with a constant, as often, that takes one instruction.
+template <std::floating_point R>
+RDDL_INLINE bool is_plus_zero(R a) {
+    return a == 0 && __builtin_copysign(R{1}, a) > 0;
+}
+// All other numbers and nan stay what they are.
+template <std::floating_point R, int n>
+RDDL_INLINE Lanes<R, n> without_minus_zero(const Lanes<R, n>& a) {
+    return a + Lanes<R, n>{R{0}};
+}
 template <class A, class B>
 requires SomePack<A, B> RDDL_INLINE auto minimum(const A& a, const B& b) {
     using Result = LanesOf<A, detail::common_width<A, B>>;
     const Result x(a), y(b);
-    if constexpr (std::is_floating_point_v<A>)
-        if (!is_zero_or_nan(a))
-            return Result::each([](auto p, auto q) RDDL_INLINE_LAMBDA { return p < q ? p : q; }, x,
-                                y);
+    if constexpr (std::is_floating_point_v<A>) {
+        const auto first_unless_beyond = [](auto p, auto q) RDDL_INLINE_LAMBDA {
+            return p < q ? p : q;
+        };
+        if (!is_zero_or_nan(a)) return Result::each(first_unless_beyond, x, y);
+        if (is_plus_zero(a)) return Result::each(first_unless_beyond, x, without_minus_zero(y));
+    }
     if constexpr (std::is_floating_point_v<B>)
         if (!is_nan(b))
             return Result::each([](auto p, auto q) RDDL_INLINE_LAMBDA { return q < p ? q : p; }, x,
@@ -392,10 +404,13 @@ template <class A, class B>
 requires SomePack<A, B> RDDL_INLINE auto maximum(const A& a, const B& b) {
     using Result = LanesOf<A, detail::common_width<A, B>>;
     const Result x(a), y(b);
-    if constexpr (std::is_floating_point_v<A>)
-        if (!is_zero_or_nan(a))
-            return Result::each([](auto p, auto q) RDDL_INLINE_LAMBDA { return p > q ? p : q; }, x,
-                                y);
+    if constexpr (std::is_floating_point_v<A>) {
+        const auto first_unless_beyond = [](auto p, auto q) RDDL_INLINE_LAMBDA {
+            return p > q ? p : q;
+        };
+        if (!is_zero_or_nan(a)) return Result::each(first_unless_beyond, x, y);
+        if (is_plus_zero(a)) return Result::each(first_unless_beyond, x, without_minus_zero(y));
+    }
     if constexpr (std::is_floating_point_v<B>)
         if (!is_nan(b))
             return Result::each([](auto p, auto q) RDDL_INLINE_LAMBDA { return q > p ? q : p; }, x,

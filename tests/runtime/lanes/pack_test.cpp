@@ -90,6 +90,12 @@ TEST(Packs, ComputeWithRealsAsScalarsDo) {
     EXPECT_BITS_OF_SCALARS(-(x + ...), a);
     EXPECT_BITS_OF_SCALARS(minimum(x...), a, b);
     EXPECT_BITS_OF_SCALARS(maximum(x...), a, b);
+    EXPECT_BITS_OF_SCALARS(minimum(0.0, x...), a);
+    EXPECT_BITS_OF_SCALARS(maximum(0.0, x...), a);
+    EXPECT_BITS_OF_SCALARS(minimum(-0.0, x...), a);
+    EXPECT_BITS_OF_SCALARS(maximum(-0.0, x...), a);
+    EXPECT_BITS_OF_SCALARS(minimum(1.0, x...), a);
+    EXPECT_BITS_OF_SCALARS(maximum(x..., 0.0), a);
     EXPECT_BITS_OF_SCALARS(absolute(x...), a);
     EXPECT_BITS_OF_SCALARS(sign(x...), a);
     EXPECT_BITS_OF_SCALARS(floor_mod(x...), a, b);

@@ -141,15 +141,15 @@ TEST(Flags, AreBytes) {
 }
 
 #ifdef RDDL_SIMD_AVX512
-template <int n>
-void expect_narrow_rows() {
+template <int n, class Read>
+void expect_narrow_rows(Read read) {
     std::mt19937_64 random(3);
     for (std::int64_t row_size = 1; row_size <= widest_narrow_row; ++row_size)
         for (std::int64_t count = 1; count <= row_size; ++count) {
             std::vector<std::byte> rows(static_cast<std::size_t>((n - 1) * row_size + count));
             for (std::byte& byte : rows) byte = std::byte{random() % 3 == 0};
             std::vector<Mask<n>> masks(static_cast<std::size_t>(count));
-            read_narrow_rows(rows.data(), row_size, count, masks.data());
+            read(rows.data(), row_size, count, masks.data());
             for (int lane = 0; lane < n; ++lane)
                 for (std::int64_t k = 0; k < count; ++k)
                     EXPECT_EQ(masks[static_cast<std::size_t>(k)][lane],
@@ -159,9 +159,12 @@ void expect_narrow_rows() {
 }
 
 TEST(Columns, OfFewBools) {
-    expect_narrow_rows<8>();
-    expect_narrow_rows<16>();
-    expect_narrow_rows<64>();
+    expect_narrow_rows<8>(read_narrow_rows<8>);
+    expect_narrow_rows<16>(read_narrow_rows<16>);
+    expect_narrow_rows<64>(read_narrow_rows<64>);
+#ifdef RDDL_SIMD_SQUARES
+    expect_narrow_rows<16>(read_narrow_rows_by_bytes);
+#endif
 }
 #endif
 

@@ -147,6 +147,22 @@ TEST(MinimumAndMaximum, LetNanWin) {
     EXPECT_EQ(maximum(least, greatest), greatest);
 }
 
+// Constants and values that only a run knows have forms of their own.
+TEST(MinimumAndMaximum, TakeTheFirstZero) {
+    volatile double unknown = 0.0;
+    const double zero = unknown;
+    EXPECT_FALSE(std::signbit(minimum(0.0, -zero)));
+    EXPECT_FALSE(std::signbit(maximum(0.0, -zero)));
+    EXPECT_TRUE(std::signbit(minimum(-0.0, zero)));
+    EXPECT_TRUE(std::signbit(maximum(-0.0, zero)));
+    EXPECT_FALSE(std::signbit(minimum(zero, -0.0)));
+    EXPECT_TRUE(std::signbit(maximum(-zero, 0.0)));
+    EXPECT_EQ(maximum(0.0, zero - 1), 0.0);
+    EXPECT_EQ(minimum(0.0, zero - 1), -1.0);
+    EXPECT_TRUE(std::isnan(maximum(0.0, zero + nan)));
+    EXPECT_TRUE(std::isnan(minimum(0.0, zero + nan)));
+}
+
 TEST(Conversions, CountTrueAsOne) {
     EXPECT_EQ(to_int(true), 1);
     EXPECT_EQ(to_int(false), 0);
