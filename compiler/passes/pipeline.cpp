@@ -1,6 +1,7 @@
 // Over 400 lines: a row for each pass.
 #include "passes/pipeline.hpp"
 
+#include "passes/aggregations/compare_cases.hpp"
 #include "passes/aggregations/count_bits.hpp"
 #include "passes/aggregations/count_bools.hpp"
 #include "passes/aggregations/count_factors.hpp"
@@ -117,6 +118,13 @@ constexpr Pass in_order[] = {
      strength_summary,
      {"fast_math"},
      "fast_math takes more divisions and powers, where it runs"},
+    {"compare_cases",
+     Phase::Aggregations,
+     compare_cases,
+     "ints that conditions choose, and that are only compared with constants, are conditions",
+     {"fold_constant_expressions"},
+     "whole definitions stand there, and fuse_interm_fluents finds cheap ones that only these "
+     "read"},
     {"fuse_interm_fluents",
      Phase::Aggregations,
      fuse_interm_fluents,

@@ -413,11 +413,18 @@ inline void write_flags(bool value, std::uint8_t* flags, int) {
 template <class List>
 RDDL_INLINE bool has_plain_bools(const ColumnTable<List>& columns, const std::byte* row) {
     if (!columns.has_bools) return true;
+    // Neighbouring columns are one run of bytes.
+    std::int64_t first = 0, end = 0;
     bool are_plain = true;
     for_each_column(columns, [&](const Column& column) RDDL_INLINE_LAMBDA {
-        if (column.scalar == RDDL_BOOL)
-            are_plain &= detail::are_plain(row + column.row, column.count);
+        if (column.scalar != RDDL_BOOL) return;
+        if (column.row != end) {
+            are_plain &= detail::are_plain(row + first, end - first);
+            first = column.row;
+        }
+        end = column.row + column.count;
     });
+    are_plain &= detail::are_plain(row + first, end - first);
     return are_plain;
 }
 

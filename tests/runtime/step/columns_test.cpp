@@ -168,5 +168,24 @@ TEST(Columns, OfFewBools) {
 }
 #endif
 
+// Two tables side by side, and one behind a number.
+TEST(Columns, WithBytesOtherThan0And1) {
+    Columns columns;
+    columns.has_bools = true;
+    columns.list = {{.scalar = RDDL_BOOL, .count = 5, .row = 0},
+                    {.scalar = RDDL_BOOL, .count = 75, .row = 5},
+                    {.scalar = RDDL_INT, .count = 1, .row = 80},
+                    {.scalar = RDDL_BOOL, .count = 9, .row = 88}};
+    std::vector<std::byte> row(97, std::byte{1});
+    std::memset(row.data() + 80, 7, 8);
+    EXPECT_TRUE(has_plain_bools(columns, row.data()));
+    for (const std::size_t k : {0, 4, 5, 63, 64, 79, 88, 96}) {
+        row[k] = std::byte{2};
+        EXPECT_FALSE(has_plain_bools(columns, row.data())) << k;
+        row[k] = std::byte{0};
+    }
+    EXPECT_TRUE(has_plain_bools(columns, row.data()));
+}
+
 }  // namespace
 }  // namespace rddl
