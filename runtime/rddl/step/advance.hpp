@@ -55,12 +55,14 @@ RDDL_INLINE void prefetch_rows(const std::byte* next, std::int64_t size) {
     for (std::int64_t k = distance; k < distance + size; k += line) __builtin_prefetch(next + k);
 }
 
-// A step reads few bytes of rows with many bools, but mostly all small tables: those of a later row
-// are asked for.
+// A step reads few bytes of rows with many bools, but mostly all small tables: those of a later
+// environment are asked for.
 template <class List>
-RDDL_INLINE void prefetch_small_tables(const ColumnTable<List>& columns, const std::byte* row) {
-    constexpr std::int64_t rows_ahead = 4, most = 64;
-    const std::byte* const later = row + rows_ahead * columns.row_size;
+RDDL_INLINE void prefetch_small_tables(const ColumnTable<List>& columns, const std::byte* rows,
+                                       std::int64_t b, std::int64_t environment_count) {
+    constexpr std::int64_t ahead = 4, most = 64;
+    if (b + ahead >= environment_count) return;
+    const std::byte* const later = rows + (b + ahead) * columns.row_size;
     for_each_column(columns, [&](const Column& column) RDDL_INLINE_LAMBDA {
         if (column.count <= most) __builtin_prefetch(later + column.row);
     });
@@ -75,7 +77,8 @@ RDDL_ALWAYS_INLINE const std::byte* action_of_block(const E& engine, const Block
     const std::int64_t first = b * L::width * columns.row_size;
     if constexpr (std::is_same_v<L, Scalar>) {
         if (actions.block) return actions.block;
-        if constexpr (takes_bools_as_given<E>) prefetch_small_tables(columns, actions.rows + first);
+        if constexpr (takes_bools_as_given<E>)
+            prefetch_small_tables(columns, actions.rows, b, blocks.environment_count);
         if (takes_bools_as_given<E> || has_plain_bools(columns, actions.rows + first))
             return actions.rows + first;
     }

@@ -1,6 +1,6 @@
 """Consumers, items and providers: sums within sums, of which the inner ones depend on less."""
 
-from domains.draft import ACTION, CONSTANT, STATE, Draft, boolean, integer, over, real
+from domains.draft import ACTION, CONSTANT, STATE, Draft, boolean, integer, of, over, real
 
 
 def add(draft: Draft) -> None:
@@ -16,7 +16,7 @@ def add(draft: Draft) -> None:
     draft.define(sold, ("?p",), draft.small(count) if sold.range == "int" else draft.bounded(real("(%s * 1.0)", count)))
     learned = real("(if (%s) then %s else %s)", draft.at(offer, "?i"), draft.signed(draft.at(taste, "?c", "?i")), draft.at(taste, "?c", "?i"))
     draft.define(taste, ("?c", "?i"), draft.bounded(learned))
-    for part in draft.rng.sample([fits, parts, extremes], draft.pick([1, 2, 3])):
+    for part in draft.rng.sample([fits, parts, extremes, seasons], draft.pick([1, 2, 3])):
         part(draft, consumer, item, provider, taste, offer, buys)
     draft.earn(over("sum", "?p", provider, draft.revealed(real("(%s - 1.0)", draft.at(sold, "?p")))))
 
@@ -62,3 +62,18 @@ def extremes(draft: Draft, consumer: str, item: str, provider: str, taste, offer
     term = real(draft.pick(["(%s * %s)", "(if (%s) then %s else -9.0)"]), draft.at(buys, "?c", "?i"), draft.signed(draft.at(taste, "?c", "?i")))
     outer, inner = draft.pick(["sum", "max", "min"]), draft.pick(["max", "min", "avg"])
     draft.earn(draft.revealed(over(outer, "?i", item, over(inner, "?c", consumer, term))))
+
+
+def seasons(draft: Draft, consumer: str, item: str, provider: str, taste, offer, buys) -> None:
+    """A demand by the step, by a constant of each consumer and by a draw."""
+    season, size = draft.declare("season", STATE, "int", default="0"), draft.declare("SIZE", CONSTANT, "real", consumer)
+    season.values.clear()
+    now = draft.at(season)
+    draft.define(season, (), draft.pick([integer("(%s + 1)", now), integer("(if (%s == 3) then 0 else %s + 1)", now, now)]))
+    wave = real("(0.5 * %s)" if draft.problem.flavour == "plain" else draft.pick(["sin[%s / 2.0]", "(1.0 + cos[0.5 * %s])"]), now)
+    usual = draft.pick([real("(%s * %s)", draft.at(size, "?c"), wave), draft.at(size, "?c")])
+    more = draft.coin(draft.pick(["0.5", "0.25"]))
+    demand = draft.declare("demand", STATE, draft.pick(["int", "real"]), consumer)
+    forms = {"int": ["min[floor[%s + %s], 9]", "max[0, min[9, round[%s - 2 * %s]]]"], "real": ["min[9.0, 0.5 * abs[%s - %s]]", "max[-4.0, -(0.25 * %s * %s)]"]}
+    draft.define(demand, ("?c",), of(demand.range, draft.pick(forms[demand.range]), usual, more))
+    draft.earn(draft.revealed(over("sum", "?c", consumer, real("(1.0 * %s)", draft.at(demand, "?c", prime=draft.chance(0.5))))))
