@@ -16,6 +16,10 @@ const Load* row_of_bools(const Program& program, const Reduce& reduce);
 // The element at the variables of a sum and of the sum that is its body: they are the last two
 // dimensions of its table. Null for sums of another form.
 const Load* table_of_bools(const Program& program, const Reduce& reduce);
+// The element of a table of real constants that such a sum adds where a bool is true: the same
+// variables are the last dimensions of its table. Null if the terms are of another form, or if the
+// bools do not say where something is: one of each row or table is true when an episode begins.
+const Load* constants_over_true(const Program& program, const Reduce& reduce);
 // Whether a node is an element at that variable, its last index.
 bool is_in_row_of_bools(const Program& program, NodeId id, VariableId variable);
 

@@ -11,7 +11,6 @@
 #include "support/match.hpp"
 
 #include <algorithm>
-#include <limits>
 #include <utility>
 
 namespace rddlc::cpp {
@@ -32,6 +31,13 @@ bool is_int_constant(const ir::Node& node) {
 std::string_view rounding_function(Operator op) {
     if (op == Operator::Round) return "round_as_real";
     return op == Operator::Floor ? "floor_as_real" : "ceil_as_real";
+}
+
+// Packs make the numbers of four objects at once, or of two where no more are left. Of many objects
+// these are a small part (docs/decisions.md).
+bool leaves_few_numbers(std::int64_t objects) {
+    constexpr std::int64_t at_once = 4, many = 8;
+    return objects < many && (objects % at_once == 1 || objects % at_once == 2);
 }
 
 }  // namespace
@@ -274,12 +280,13 @@ tree::Expressions Expressions::place_of_draw(const ir::Place& place,
     if (takes_one_number && !several_ && unit_.is_lone(place))
         return this->place(
             place, unit_.is_among_sites(place) ? "rddl::PlaceAmongSites" : "rddl::LonePlace");
-    // Packs make the normals of neighbours together, and of other numbers those of two objects
-    // alone.
-    constexpr std::int64_t any = std::numeric_limits<std::int64_t>::max();
+    // Packs make the normals of neighbours together, and of other numbers no more than those of the
+    // objects.
+    const bool is_normal = distribution == Distribution::Normal;
     const bool is_bernoulli = distribution == Distribution::Bernoulli && !several_;
-    const std::int64_t most = distribution == Distribution::Normal ? any : is_bernoulli ? 2 : 0;
-    return this->place(place, type_among(place, most));
+    const auto count = is_normal || is_bernoulli ? objects_among(place) : std::nullopt;
+    const bool is_among = count && (is_normal || leaves_few_numbers(count->size));
+    return this->place(place, is_among ? "rddl::PlaceAmong<" + unit_.size_of(*count) + ">" : "");
 }
 
 Expression Expressions::place_in_step(const ir::Place& place, const StepDraws::Where& where) {
@@ -293,15 +300,14 @@ Expression Expressions::place_in_step(const ir::Place& place, const StepDraws::W
     return tree::call(function + ">", std::move(arguments));
 }
 
-std::string Expressions::type_among(const ir::Place& place, std::int64_t most) const {
+std::optional<ir::Variable> Expressions::objects_among(const ir::Place& place) const {
     const auto* index = std::get_if<ir::Index>(&unit_.program[place.index].form);
     const std::vector<ir::VariableId>& scope = unit_.program[place.site].scope;
-    if (scope.size() != 1) return "";
+    if (scope.size() != 1) return std::nullopt;
     const ir::Variable& object = unit_.program[scope.front()];
     const bool is_in_loop =
         several_ || (index && unit_.program[index->variable].size == object.size);
-    const bool is_among = is_in_loop && object.size > 1 && object.size <= most;
-    return is_among ? "rddl::PlaceAmong<" + unit_.size_of(object) + ">" : "";
+    return is_in_loop && object.size > 1 ? std::optional(object) : std::nullopt;
 }
 
 tree::Expressions Expressions::place(const ir::Place& place, const std::string& type) {
@@ -350,6 +356,17 @@ const ir::Select& Expressions::term_over_true(const ir::Node& binder) const {
     const ir::Reduce* const second = second_over_true(binder);
     const ir::Reduce& innermost = second ? *second : *over_true(binder);
     return std::get<ir::Select>(unit_.program[innermost.body].form);
+}
+
+// "rddl::sum_where_true<Real>(state.p[c], GAIN_)"
+std::optional<Expression> Expressions::sum_where_true(const ir::Node& binder) {
+    const ir::Reduce* const sum = over_true(binder);
+    const ir::Load* const terms = sum ? ir::constants_over_true(unit_.program, *sum) : nullptr;
+    if (!terms) return std::nullopt;
+    const std::size_t dimensions = second_over_true(binder) ? 2 : 1;
+    const auto row = std::span(terms->indices).first(terms->indices.size() - dimensions);
+    return tree::call("rddl::sum_where_true<" + type(binder.type) + ">",
+                      tree::list(bools_of(*sum), elements(record(terms->buffer), row)));
 }
 
 ir::NodeId Expressions::bound_value(const ir::Node& binder) const {

@@ -61,6 +61,7 @@ class Expressions {
     template <class Body>
     tree::Expression lower_binder(const ir::Node& binder, Body&& body) {
         if (auto count = count_of_true(binder)) return *std::move(count);
+        if (auto sum = sum_where_true(binder)) return *std::move(sum);
         const auto shares = shares_of(binder);
         tree::Expressions arguments = binder_arguments(binder);
         if (shares) arguments.push_back(lower(shares->total));
@@ -155,6 +156,7 @@ class Expressions {
     const ir::Reduce* second_over_true(const ir::Node& binder) const;
     // The choice between what is added where an element is true, and zero.
     const ir::Select& term_over_true(const ir::Node& binder) const;
+    std::optional<tree::Expression> sum_where_true(const ir::Node& binder);
     std::optional<tree::Expression> count_of_true(const ir::Node& binder);
     // The term of an aggregation, or the weight of a draw.
     ir::NodeId bound_value(const ir::Node& binder) const;
@@ -181,9 +183,8 @@ class Expressions {
                                     std::optional<Distribution> distribution = {});
     // "rddl::place_in_row<0>(numbers, 1, g)": its number is made before the step.
     tree::Expression place_in_step(const ir::Place& place, const StepDraws::Where& where);
-    // "rddl::PlaceAmong<c_count>" in a loop over the objects of its scope, if there are at most so
-    // many, else "".
-    std::string type_among(const ir::Place& place, std::int64_t most) const;
+    // The objects of the place's scope, if it is in a loop over them.
+    std::optional<ir::Variable> objects_among(const ir::Place& place) const;
     tree::Expression elements(tree::Expression table, std::span<const ir::NodeId> indices);
     tree::Expression view(const ir::TableView& view, bool is_written);
     tree::Statement external_call(const ir::Call& call);

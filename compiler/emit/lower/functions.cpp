@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -202,27 +203,80 @@ struct CpfFunctions {
     Uses uses;  // of all together
 };
 
+// Writes the functions of definitions.
+struct CpfWriter {
+    const Unit& unit;
+    const std::vector<ir::Definition>& definitions;
+    const std::vector<std::string>& names;
+    Owner owner;
+    CpfFunctions result = {};
+
+    std::vector<Parameter> parameters(const Uses& uses) const {
+        return parameters_of(owner == Owner::Policy ? policy_records(unit) : simulator_records,
+                             uses);
+    }
+    Call add(const std::string& name, const Uses& uses, tree::Block body,
+             const std::string& comment) {
+        const std::vector<Parameter> used = only_used(parameters(uses));
+        result.functions.push_back(function("void", name, used, std::move(body), comment));
+        return {{tree::call(name, arguments(used))}, uses};
+    }
+    Call add_definition(std::size_t k, bool tests_choices) {
+        const ir::Definition& definition = definitions[k];
+        FunctionBody body(unit, level + 1);
+        if (tests_choices) body.keep_unchosen({&definition, 1});
+        body.block(definition.body);
+        result.uses.add(body.uses());
+        return add(names[k], body.uses(), body_of(unit, body, definition.span),
+                   cpf_comment(unit, definition, owner));
+    }
+
+    // The definitions from `begin` up to the result keep tables of the state by the same test.
+    std::size_t end_of_group(std::size_t begin) const {
+        std::size_t end = begin + 1;
+        const auto& first = definitions[begin].unchosen;
+        while (first && end < definitions.size() && definitions[end].unchosen &&
+               definitions[end].unchosen->choices == first->choices)
+            ++end;
+        return end;
+    }
+    // A function that makes their test, and calls the functions of all.
+    Call add_group(std::size_t begin, std::size_t end, const std::string& name) {
+        FunctionBody test(unit, level + 1);
+        test.keep_unchosen(std::span(definitions).subspan(begin, end - begin));
+        Uses uses = test.uses();
+        result.uses.add(uses);
+        tree::Block body = std::move(test.statements());
+        tree::Block before = std::exchange(result.functions, {});
+        for (std::size_t k = begin; k < end; ++k) {
+            Call each = add_definition(k, false);
+            uses.add(each.uses);
+            body.push_back(std::move(each.statement));
+        }
+        tree::Block of_group = std::exchange(result.functions, std::move(before));
+        Call call = add(name, uses, std::move(body),
+                        "These CPFs keep the state where the action chooses nothing.");
+        append(result.functions, std::move(of_group));
+        return call;
+    }
+};
+
 CpfFunctions cpf_functions(const Unit& unit, const std::string& caller,
                            const std::vector<ir::Definition>& definitions,
                            const std::vector<std::string>& names, Owner owner) {
-    const std::vector<Storage> records =
-        owner == Owner::Policy ? policy_records(unit) : simulator_records;
-    CpfFunctions result;
+    CpfWriter writer{unit, definitions, names, owner};
     std::vector<Call> calls;
-    for (std::size_t k = 0; k < definitions.size(); ++k) {
-        const ir::Definition& definition = definitions[k];
-        FunctionBody body(unit, level + 1);
-        if (definition.unchosen) body.keep_unchosen(definition);
-        body.block(definition.body);
-        result.uses.add(body.uses());
-        const std::vector<Parameter> parameters = only_used(parameters_of(records, body.uses()));
-        calls.push_back({{tree::call(names[k], arguments(parameters))}, body.uses()});
-        result.functions.push_back(function("void", names[k], parameters,
-                                            body_of(unit, body, definition.span),
-                                            cpf_comment(unit, definition, owner)));
+    std::size_t groups = 0;
+    for (std::size_t k = 0, end = 0; k < definitions.size(); k = end) {
+        end = writer.end_of_group(k);
+        calls.push_back(
+            end == k + 1
+                ? writer.add_definition(k, definitions[k].unchosen.has_value())
+                : writer.add_group(k, end, caller + "_if_chosen_" + std::to_string(groups++)));
     }
     Calls parted = in_parts(caller, std::move(calls),
-                            [&](const Uses& uses) { return parameters_of(records, uses); });
+                            [&](const Uses& uses) { return writer.parameters(uses); });
+    CpfFunctions result = std::move(writer.result);
     result.calls = std::move(parted.statements);
     append(result.functions, std::move(parted.parts));
     return result;

@@ -145,13 +145,29 @@ void FunctionBody::block(const ir::Block& block) {
 }
 
 // if (rddl::keep_unchosen(next.seen, state.seen, action.use)) return;
-void FunctionBody::keep_unchosen(const ir::Definition& definition) {
-    tree::Expressions arguments = tree::list(expressions_.target(definition.target, {}),
-                                             expressions_.record(definition.unchosen->kept));
-    for (const ir::BufferId choice : definition.unchosen->choices)
-        arguments.push_back(expressions_.record(choice));
+// if (rddl::keep_unchosen(rddl::tables(next.seen, next.lost), rddl::tables(state.seen, state.lost),
+//                         action.use)) return;
+void FunctionBody::keep_unchosen(std::span<const ir::Definition> definitions) {
+    tree::Expressions next, state;
+    for (const ir::Definition& definition : definitions) {
+        next.push_back(expressions_.target(definition.target, {}));
+        state.push_back(expressions_.record(definition.unchosen->kept));
+    }
+    const auto one_or_all = [](tree::Expressions tables) {
+        return tables.size() == 1 ? std::move(tables.front())
+                                  : tree::call("rddl::tables", std::move(tables));
+    };
+    tree::Expressions arguments =
+        tree::list(one_or_all(std::move(next)), one_or_all(std::move(state)));
+    append(arguments, tables(definitions.front().unchosen->choices));
     statements_.push_back({tree::If{tree::call("rddl::keep_unchosen", std::move(arguments)),
                                     tree::Statement{tree::word("return")}}});
+}
+
+tree::Expressions FunctionBody::tables(const std::vector<ir::BufferId>& buffers) {
+    tree::Expressions result;
+    for (const ir::BufferId buffer : buffers) result.push_back(expressions_.record(buffer));
+    return result;
 }
 
 void FunctionBody::return_value(ir::NodeId id) {

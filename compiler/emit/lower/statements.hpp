@@ -10,6 +10,7 @@
 
 #include <cstddef>
 #include <map>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -21,13 +22,15 @@ class FunctionBody {
     FunctionBody(const Unit& unit, std::size_t level) : expressions_(unit), level_(level) {}
 
     void block(const ir::Block& block);
-    void keep_unchosen(const ir::Definition& definition);
+    // Returns where definitions, of which all have the same choices, keep tables of the state.
+    void keep_unchosen(std::span<const ir::Definition> definitions);
     void return_value(ir::NodeId value);
 
     tree::Block& statements() { return statements_; }
     const Uses& uses() { return expressions_.uses(); }
 
   private:
+    tree::Expressions tables(const std::vector<ir::BufferId>& buffers);
     void statement(const ir::Let& let);
     void statement(const ir::Store& store);
     void statement(const ir::Loop& loop);

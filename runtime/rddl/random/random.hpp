@@ -180,11 +180,17 @@ RDDL_INLINE Lanes<R, n> uniform_at(Context<Pack<n, R>>& context, Place place) {
     return recent.numbers[place.index - recent.first];
 }
 
-// The number of one of two draws of a loop: no others are made.
-template <int n, class R, std::same_as<PlaceAmong<2>> AmongTwo>
-RDDL_INLINE Lanes<R, n> uniform_at(Context<Pack<n, R>>& context, AmongTwo place) {
+// The number of one of `count` draws of a loop: those of no other objects are made with it.
+template <int n, class R, Index count>
+RDDL_INLINE Lanes<R, n> uniform_at(Context<Pack<n, R>>& context, PlaceAmong<count> place) {
+    constexpr std::uint32_t at_once = numbers_at_once<n, R>, all = count, rest = all % at_once;
     const auto& recent = context.recent[place.series % recent_series];
-    if (!recent.has(place)) refill<2>(context, place.series, place.index);
+    if (!recent.has(place)) {
+        if (rest > 0 && rest <= 2 && place.index >= all - rest)
+            refill<2>(context, place.series, place.index);
+        else
+            refill<at_once>(context, place.series, place.index);
+    }
     return recent.numbers[place.index - recent.first];
 }
 

@@ -12,6 +12,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <tuple>
 #include <utility>
 
 namespace rddl {
@@ -80,12 +81,20 @@ RDDL_INLINE bool is_any_true(const Table& table) {
     return simd::is_any_stored_byte<static_cast<int>(detail::element_count<Table>)>(
         detail::first_element(table));
 }
-// Copies a table of the state if all bools of these tables of the action are false, in packs for
-// all environments, and says so.
-template <class Table, class... Choices>
-RDDL_INLINE bool keep_unchosen(Table& next, const Table& state, const Choices&... choices) {
-    if ((simd::is_any_stored_byte<static_cast<int>(sizeof(Choices))>(&choices) || ...))
-        return false;
+// Whether all bools of these tables of the action are false, in packs for all environments.
+template <class... Choices>
+RDDL_INLINE bool is_unchosen(const Choices&... choices) {
+    return !(simd::is_any_stored_byte<static_cast<int>(sizeof(Choices))>(&choices) || ...);
+}
+// Several tables, to be copied at once.
+template <class... Tables>
+RDDL_INLINE auto tables(Tables&... all) {
+    return std::tie(all...);
+}
+// Copies a table of the state, or several, if nothing is chosen, and says so.
+template <class Next, class State, class... Choices>
+RDDL_INLINE bool keep_unchosen(Next&& next, const State& state, const Choices&... choices) {
+    if (!is_unchosen(choices...)) return false;
     next = state;
     return true;
 }

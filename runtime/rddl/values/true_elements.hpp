@@ -19,6 +19,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <type_traits>
 #include <utility>
 
 namespace rddl {
@@ -58,6 +59,25 @@ RDDL_INLINE auto true_elements_of(const Table& table) {
         first_of_word += 64;
     }
     return elements;
+}
+
+// The term where the only true bool of each lane is, 0.0 where none is; sum() of one environment,
+// or where a lane may have several.
+template <class T, class Bools, class Terms, class Sum>
+RDDL_INLINE T term_of_each(const Bools& bools, const Terms& terms, Sum&& sum) {
+    constexpr Index count = element_count<Bools>;
+    if constexpr (std::is_floating_point_v<T> || count > 64) {
+        return sum();
+    } else {
+        const auto word = bits(bools);
+        using Word = std::remove_const_t<decltype(word)>;
+        const Word none{std::int64_t{0}}, below = wrap_sub(word, Word{std::int64_t{1}});
+        if (any(bit_and(word, below) != none)) return sum();
+        constexpr auto others = static_cast<std::int64_t>((std::uint64_t{1} << (count - 1)) - 1);
+        const Word place = count_ones(bit_and(below, Word{others}));
+        const T term = gather<count>(first_element(terms), place);
+        return select(word != none, term + T{0}, T{0});
+    }
 }
 
 }  // namespace detail
@@ -156,6 +176,24 @@ RDDL_INLINE T sum_over_true(Context<L>& context,
     return sum<T>(static_cast<Index>(m), [&](Index x) RDDL_INLINE_LAMBDA {
         return sum_over_true<T>(context, table[static_cast<std::size_t>(x)],
                                 [&](Index y) { return body(x, y); });
+    });
+}
+
+// The same sums with the elements of a table of constants as terms. Mostly at most one bool of an
+// environment is true: then each environment of a pack looks up its own term.
+template <class T, std::size_t n, class Bool, class R>
+RDDL_INLINE T sum_where_true(const std::array<Bool, n>& row, const std::array<R, n>& terms) {
+    return detail::term_of_each<T>(row, terms, [&] {
+        return sum_over_true<T>(row, [&](Index i) { return terms[static_cast<std::size_t>(i)]; });
+    });
+}
+template <class T, std::size_t m, std::size_t n, class Bool, class R>
+RDDL_INLINE T sum_where_true(const std::array<std::array<Bool, n>, m>& table,
+                             const std::array<std::array<R, n>, m>& terms) {
+    return detail::term_of_each<T>(table, terms, [&] {
+        return sum_over_true<T>(table, [&](Index x, Index y) {
+            return terms[static_cast<std::size_t>(x)][static_cast<std::size_t>(y)];
+        });
     });
 }
 

@@ -190,6 +190,7 @@ TEST(Packs, DrawNormalsOfNeighboursTogether) {
     };
     expect_same.operator()<2>();
     expect_same.operator()<3>();
+    expect_same.operator()<6>();
     expect_same.operator()<9>();
 }
 

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -112,6 +113,52 @@ TEST(TrueElements, AreAddedRowByRow) {
             EXPECT_EQ(sums[static_cast<int>(lane)], total) << kind;
             EXPECT_EQ(jumping[static_cast<int>(lane)], total) << kind;
         }
+    }
+}
+
+// Terms of a table: with one true bool in each lane at most, in one lane none, and with two.
+template <std::size_t m, std::size_t n>
+void expect_terms_of_table(int kind) {
+    std::array<std::array<double, n>, m> terms;
+    std::array<std::array<Mask<width>, n>, m> masks;
+    std::array<std::array<std::array<bool, n>, m>, width> tables{};
+    for (std::size_t i = 0; i < m * n; ++i)
+        terms[i / n][i % n] = i % 5 == 2 ? -0.0 : term_of(static_cast<Index>(i));
+    for (std::size_t lane = 0; lane < width; ++lane)
+        for (int k = lane == 4 ? 2 : 0; k < (kind == 2 && lane == 9 ? 2 : 1); ++k) {
+            const std::size_t place =
+                kind == 0 ? m * n - 1 : (7 * lane + 11 * static_cast<std::size_t>(k)) % (m * n);
+            tables[lane][place / n][place % n] = true;
+        }
+    for (std::size_t i = 0; i < m * n; ++i)
+        for (std::size_t lane = 0; lane < width; ++lane)
+            masks[i / n][i % n].set(static_cast<int>(lane), tables[lane][i / n][i % n]);
+    const auto sums = sum_where_true<Pack<width>::Real>(masks, terms);
+    const auto of_row = sum_where_true<Pack<width>::Real>(masks[0], terms[0]);
+    for (std::size_t lane = 0; lane < width; ++lane) {
+        const auto& table = tables[lane];
+        const auto total = sum_over_true<double>(table, [&](Index x, Index y) {
+            return terms[static_cast<std::size_t>(x)][static_cast<std::size_t>(y)];
+        });
+        const auto total_of_row = sum_over_true<double>(
+            table[0], [&](Index y) { return terms[0][static_cast<std::size_t>(y)]; });
+        const int at = static_cast<int>(lane);
+        EXPECT_EQ(std::bit_cast<std::uint64_t>(sum_where_true<double>(table, terms)),
+                  std::bit_cast<std::uint64_t>(total));
+        EXPECT_EQ(std::bit_cast<std::uint64_t>(sums[at]), std::bit_cast<std::uint64_t>(total))
+            << m << " by " << n << ", " << kind << ", " << at;
+        EXPECT_EQ(std::bit_cast<std::uint64_t>(of_row[at]),
+                  std::bit_cast<std::uint64_t>(total_of_row))
+            << n << ", " << kind << ", " << at;
+    }
+}
+
+TEST(TrueElements, LookTermsUp) {
+    for (const int kind : {0, 1, 2}) {
+        expect_terms_of_table<1, 1>(kind);
+        expect_terms_of_table<6, 6>(kind);
+        expect_terms_of_table<8, 8>(kind);
+        expect_terms_of_table<5, 13>(kind);
     }
 }
 
