@@ -36,7 +36,7 @@ class DrawTables {
     }
 
   private:
-    // What an expression depends on.
+    // The draw and the element that an expression depends on.
     struct Parts {
         std::optional<ir::NodeId> draw, element;
         double cost = 0;  // beside these
