@@ -34,7 +34,8 @@ using HalfFloats = typename HalfOf<float>::type;
 #ifdef RDDL_SIMD_AVX512
 
 [[gnu::always_inline]] inline HalfFloats half_of(Floats a, int half) {
-    return half == 0 ? _mm512_castps512_ps256(a) : _mm512_maskz_extractf32x8_ps(0xFF, a, 1);
+    if (half == 1) return _mm512_maskz_extractf32x8_ps(0xFF, a, 1);
+    return __builtin_shufflevector(a, a, 0, 1, 2, 3, 4, 5, 6, 7);
 }
 [[gnu::always_inline]] inline Floats joined(HalfFloats first, HalfFloats second) {
     return _mm512_maskz_insertf32x8(0xFFFF, _mm512_castps256_ps512(first), second, 1);
@@ -177,28 +178,41 @@ template <std::int64_t count>
     return gather(table, indices);
 }
 
+#endif
+
 // The first `count` lanes, zeros in the others, as load_some and store_some do.
 [[gnu::always_inline]] inline HalfFloats load_some_of_half(const float* from, int count) {
-    return _mm256_maskz_loadu_ps(
-        static_cast<__mmask8>(_bzhi_u32(0xFF, static_cast<unsigned>(count))), from);
+#ifdef RDDL_SIMD_AVX512
+    const std::uint32_t some = _bzhi_u32(0xFF, static_cast<unsigned>(count));
+    return _mm256_maskz_loadu_ps(static_cast<__mmask8>(some), from);
+#else
+    HalfFloats result{};
+    for (int i = 0; i < lanes && i < count; ++i) result[i] = from[i];
+    return result;
+#endif
 }
 [[gnu::always_inline]] inline void store_some_of_half(float* to, HalfFloats values, int count) {
-    _mm256_mask_storeu_ps(
-        to, static_cast<__mmask8>(_bzhi_u32(0xFF, static_cast<unsigned>(count))), values);
+#ifdef RDDL_SIMD_AVX512
+    const std::uint32_t some = _bzhi_u32(0xFF, static_cast<unsigned>(count));
+    _mm256_mask_storeu_ps(to, static_cast<__mmask8>(some), values);
+#else
+    for (int i = 0; i < lanes && i < count; ++i) to[i] = values[i];
+#endif
 }
 // See load_in_pairs and store_one_by_one of doubles (simd_moves.hpp).
 [[gnu::always_inline]] inline HalfFloats load_one_by_one(const float* from, int count) {
+#ifdef RDDL_SIMD_AVX512
     const __m128 first = _mm_unpacklo_ps(_mm_load_ss(from), _mm_load_ss(from + 1));
     __m128 second{};
     if (count > 2) second = _mm_load_ss(from + 2);
     if (count > 3) second = _mm_unpacklo_ps(second, _mm_load_ss(from + 3));
     return _mm256_zextps128_ps256(_mm_movelh_ps(first, second));
+#else
+    return load_some_of_half(from, count);
+#endif
 }
 [[gnu::always_inline]] inline void store_one_by_one(float* to, HalfFloats values, int count) {
-    const __m128 some = _mm256_castps256_ps128(values);
-    for (int i = 0; i < 4 && i < count; ++i) to[i] = some[i];
+    for (int i = 0; i < most_in_pairs && i < count; ++i) to[i] = values[i];
 }
-
-#endif
 
 }  // namespace rddl::simd::inline RDDL_SIMD_LEVEL

@@ -43,7 +43,7 @@ RDDL_INLINE Lanes<T, n> load_some(const T* from, const SomeObjects<n>& objects) 
             return values;
         }
     }
-    if constexpr (values.is_half) {
+    if constexpr (Lanes<T, n>::is_half) {
         const int count = objects.count;
         values.part[0] =
             __builtin_constant_p(count) && count > 1 && count <= simd::most_in_pairs
@@ -69,7 +69,7 @@ RDDL_INLINE void store_some(T* to, const SomeObjects<n>& objects, const Lanes<T,
         if (__builtin_constant_p(count) && count <= simd::most_in_pairs)
             return simd::store_one_by_one(to, values.part[0], count);
     }
-    if constexpr (values.is_half)
+    if constexpr (Lanes<T, n>::is_half)
         simd::store_some_of_half(to, values.part[0], objects.count);
     else
         for (int p = 0, first = 0; p < values.part_count; ++p, first += values.part_width)

@@ -192,7 +192,7 @@ RDDL_INLINE Lanes<To, n> of_halves(const Lanes<float, n>& a, Operation operation
 template <class From, int n>
 RDDL_INLINE Lanes<float, n> float_lanes(const Lanes<From, n>& a) {
     Lanes<float, n> result;
-    if constexpr (result.is_half)
+    if constexpr (Lanes<float, n>::is_half)
         result.part[0] = simd::to_floats(a.part[0]);
     else
         for (int p = 0; p < result.part_count; ++p)
@@ -301,7 +301,7 @@ constexpr std::uint32_t lower_halves(std::uint64_t a) {
 template <int n>
 RDDL_INLINE Lanes<std::uint32_t, n> lower_halves(const Lanes<std::uint64_t, n>& a) {
     Lanes<std::uint32_t, n> result;
-    if constexpr (result.is_half)
+    if constexpr (Lanes<std::uint32_t, n>::is_half)
         result.part[0] = simd::lower_halves(a.part[0]);
     else
         for (int p = 0; p < result.part_count; ++p)
@@ -612,7 +612,7 @@ RDDL_INLINE auto gather(const double* elements, const Lanes<std::int64_t, n>& in
 template <std::int64_t count, int n>
 auto gather(const float* elements, const Lanes<std::int64_t, n>& indices) {
     Lanes<float, n> result;
-    if constexpr (result.is_half)
+    if constexpr (Lanes<float, n>::is_half)
         result.part[0] = simd::look_up<count>(elements, indices.part[0]);
     else
         for (int p = 0; p < result.part_count; ++p)
