@@ -15,7 +15,7 @@
 
 namespace rddl::simd::inline RDDL_SIMD_LEVEL {
 
-// What n lanes need: registers, or half a register.
+// The vector type of n lanes: a register, or half a register.
 template <class T, int n, bool fill_registers = (n >= lanes_of<T>)>
 struct VectorsFor {
     using type = Vector<T>;

@@ -152,7 +152,7 @@ TEST(FloatLanesOf, HaveTheBitsOfTheScalar) {
     expect_the_bits_of_the_scalar<64>();
 }
 
-// What is no number or beyond ints as well.
+// So do nan and floats beyond ints.
 TEST(FloatLanesOf, BecomeIntsAsSingleFloatsDo) {
     constexpr float nan = std::numeric_limits<float>::quiet_NaN();
     constexpr float values[] = {-0.0f,   0.5f,     -0.5f,    2.5f,      0x1p62f, 0x1p63f,
