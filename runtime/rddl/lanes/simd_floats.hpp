@@ -1,7 +1,7 @@
 // Lanes of 32 bits (simd.hpp): from and to lanes of 64 bits, and in half a register.
 //
-// A register holds twice as many floats as doubles or ints. Eight lanes of AVX-512 fill half a
-// register with floats, which processors have instructions for.
+// A register holds twice as many floats as doubles or ints. So 8 floats fill half a register of
+// AVX-512, for which processors have instructions.
 #pragma once
 
 #include <rddl/lanes/simd.hpp>
