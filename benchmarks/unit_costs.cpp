@@ -33,8 +33,8 @@ double processor_seconds() {
     return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
 }
 
-// The compiler has to make all results, and to load the operands again: it drops what is stored where
-// no one else knows the place.
+// The compiler has to make all results, and to load the operands again: it drops what is stored
+// where no one else knows the place.
 template <class R>
 void keep_all() {
     asm volatile("" ::"r"(&a<R>), "r"(&b<R>), "r"(&results<R>) : "memory");

@@ -597,8 +597,7 @@ class Batch {
     std::int64_t step_some(Workspace& workspace, Range range, const std::byte* rows,
                            const rddl_transition& out) {
         const std::int64_t b = range.begin;
-        const bool whole =
-            width == 1 ? blocks_.are_blocks(rows) : lanes_of(b) == width;
+        const bool whole = width == 1 ? blocks_.are_blocks(rows) : lanes_of(b) == width;
         if (!whole) {
             const std::byte* const block = block_of_actions(workspace, rows, b);
             return step_blocks(workspace, {b, b + 1}, {nullptr, block}, out);

@@ -45,10 +45,9 @@ RDDL_INLINE Lanes<T, n> load_some(const T* from, const SomeObjects<n>& objects) 
     }
     if constexpr (Lanes<T, n>::is_half) {
         const int count = objects.count;
-        values.part[0] =
-            __builtin_constant_p(count) && count > 1 && count <= simd::most_in_pairs
-                ? simd::load_one_by_one(from, count)
-                : simd::load_some_of_half(from, count);
+        values.part[0] = __builtin_constant_p(count) && count > 1 && count <= simd::most_in_pairs
+                             ? simd::load_one_by_one(from, count)
+                             : simd::load_some_of_half(from, count);
         return values;
     } else {
         for (int p = 0, first = 0; p < values.part_count; ++p, first += values.part_width)

@@ -255,9 +255,10 @@ struct Uniform {
 // How many pairs of neighbours are made at once: of uniform numbers as many as a register has
 // words, or floats if these are fewer than 8.
 template <class Standard, class R>
-inline constexpr int pairs_at_once =
-    Standard::kind == Uniform::kind ? std::min(simd::lanes_of<R>, Context<ScalarOf<R>>::most_pairs)
-                                    : Context<ScalarOf<R>>::most_pairs;
+inline constexpr int pairs_at_once = Standard::kind == Uniform::kind
+                                         ? std::min(simd::lanes_of<R>,
+                                                    Context<ScalarOf<R>>::most_pairs)
+                                         : Context<ScalarOf<R>>::most_pairs;
 
 // Keeps the numbers of a register of pairs.
 template <class Standard, class R, class Real>

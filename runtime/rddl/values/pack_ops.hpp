@@ -205,8 +205,8 @@ RDDL_INLINE Lanes<float, n> float_lanes(const Lanes<From, n>& a) {
 
 template <int n>
 RDDL_INLINE Lanes<double, n> to_double(const Lanes<float, n>& a) {
-    return detail::of_halves<double>(
-        a, [](auto x) RDDL_INLINE_LAMBDA { return simd::to_reals(x); });
+    return detail::of_halves<double>(a,
+                                     [](auto x) RDDL_INLINE_LAMBDA { return simd::to_reals(x); });
 }
 template <int n>
 RDDL_INLINE Lanes<float, n> to_float(const Lanes<double, n>& a) {

@@ -155,7 +155,7 @@ TEST(FloatLanesOf, HaveTheBitsOfTheScalar) {
 // So do nan and floats beyond ints.
 TEST(FloatLanesOf, BecomeIntsAsSingleFloatsDo) {
     constexpr float nan = std::numeric_limits<float>::quiet_NaN();
-    constexpr float values[] = {-0.0f,   0.5f,     -0.5f,    2.5f,      0x1p62f, 0x1p63f,
+    constexpr float values[] = {-0.0f,    0.5f,     -0.5f,    2.5f,      0x1p62f, 0x1p63f,
                                 -0x1p63f, -0x1p64f, infinity, -infinity, nan,     -7.9f};
     Floats a{0.0f};
     for (int lane = 0; lane < 12; ++lane) a.set(lane, values[lane]);
