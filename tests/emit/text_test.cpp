@@ -208,6 +208,7 @@ TEST(EmittedText, RoundsRealsWithoutInts) {
     const std::string reward = "sum_{?o : o} [W(?o) * on(?o)]";
     text.replace(text.find(reward), reward.size(), "floor[(sum_{?o : o} [W(?o) * on(?o)])] * 0.5");
     EXPECT_EQ(count(emitted(text), "rddl::floor_as_real("), 1u);
+    EXPECT_EQ(count(emitted(text, {}, {}, RealType::Float), "rddl::floor_as_real("), 1u);
 }
 
 TEST(EmittedText, IncludesNothingButTheRuntimeAndTheStandardLibrary) {

@@ -162,8 +162,10 @@ Expression Expressions::lower(const ir::Node&, const ir::Local& local) {
 
 Expression Expressions::lower(const ir::Node& node, const ir::Convert& convert) {
     if (node.type == ir::Scalar::Int) return call("to_int", {convert.operand});
-    if (unit_.program.real == RealType::Float) return call("to_float", {convert.operand});
-    if (!convert.skips_int) return call("to_real", {convert.operand});
+    if (!convert.skips_int) {
+        const bool to_float = unit_.program.real == RealType::Float;
+        return call(to_float ? "to_float" : "to_real", {convert.operand});
+    }
     const auto& rounded = std::get<ir::Apply>(unit_.program[convert.operand].form);
     return call(rounding_function(rounded.op), rounded.operands);
 }

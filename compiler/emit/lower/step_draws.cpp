@@ -98,7 +98,6 @@ bool fills_row(const ir::Program& program, const ir::Loop& loop) {
 
 StepDraws::StepDraws(const ir::Program& program,
                      const std::function<bool(const ir::Place&)>& takes_lane) {
-    if (program.real != RealType::Double) return;  // a register has the floats of 16 objects
     std::vector<Row> lone_rows;
     std::vector<std::pair<Key, Where>> lone;
     const auto series_of = [&](const ir::Place& place) {

@@ -203,8 +203,7 @@ class Choices {
 
     bool skips_int(const ir::Convert& convert, ir::Scalar type) const {
         const auto* apply = std::get_if<ir::Apply>(&program_[convert.operand].form);
-        return apply && type == ir::Scalar::Real && program_.real == RealType::Double &&
-               typing_of(apply->op) == Typing::Rounding;
+        return apply && type == ir::Scalar::Real && typing_of(apply->op) == Typing::Rounding;
     }
 
     bool over_true(const ir::Reduce& reduce) const {

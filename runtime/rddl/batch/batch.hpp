@@ -274,7 +274,7 @@ class Batch {
     }
     // The view of the only environment, if it accepts all actions; else null.
     const BatchView<L>* only_one() const {
-        const bool is_one = std::is_same_v<L, Scalar> && options_.environment_count == 1;
+        const bool is_one = width == 1 && options_.environment_count == 1;
         const bool accepts_all = !action_columns_.has_objects;
         return is_one && accepts_all && !keeps_steps() ? views_.data() : nullptr;
     }
@@ -597,8 +597,7 @@ class Batch {
     std::int64_t step_some(Workspace& workspace, Range range, const std::byte* rows,
                            const rddl_transition& out) {
         const std::int64_t b = range.begin;
-        const bool whole =
-            std::is_same_v<L, Scalar> ? blocks_.are_blocks(rows) : lanes_of(b) == width;
+        const bool whole = width == 1 ? blocks_.are_blocks(rows) : lanes_of(b) == width;
         if (!whole) {
             const std::byte* const block = block_of_actions(workspace, rows, b);
             return step_blocks(workspace, {b, b + 1}, {nullptr, block}, out);

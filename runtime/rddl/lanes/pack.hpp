@@ -8,6 +8,7 @@
 #include <rddl/lanes/lane.hpp>
 #include <rddl/lanes/real.hpp>
 #include <rddl/lanes/simd.hpp>
+#include <rddl/lanes/simd_floats.hpp>
 #include <rddl/lanes/simd_moves.hpp>
 
 #include <array>
@@ -84,9 +85,10 @@ constexpr void for_each_lane(Mask<n> mask, Body&& body) {
 template <class T, int n>
 struct Lanes {
     using Element = T;
-    using Vector = simd::Vector<T>;
+    using Vector = typename simd::VectorsFor<T, n>::type;
     static constexpr int width = n;
-    static constexpr int part_width = simd::lanes_of<T>;
+    static constexpr bool is_half = n < simd::lanes_of<T>;  // of a register
+    static constexpr int part_width = is_half ? n : simd::lanes_of<T>;
     static constexpr int part_count = n / part_width;
     static_assert(n % part_width == 0);
 

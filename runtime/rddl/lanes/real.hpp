@@ -66,6 +66,15 @@ inline double unknown(double a) {
     return a;
 }
 
+inline float unknown(float a) {
+#ifdef __SSE2__
+    asm("" : "+x"(a));
+#else
+    asm("" : "+m"(a));
+#endif
+    return a;
+}
+
 // double or a pack of doubles, but no integer that would become one; the same with float.
 template <class R>
 concept RealLanes = std::same_as<R, double> || std::same_as<typename R::Element, double>;

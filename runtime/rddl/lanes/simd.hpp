@@ -83,6 +83,10 @@ struct VectorOf<std::uint64_t> {
 };
 template <class T>
 using Vector = typename VectorOf<T>::type;
+template <class T>
+struct HalfOf {
+    typedef T type __attribute__((vector_size(register_bytes / 2)));
+};
 
 // Lanes of type T in a register.
 template <class T>
@@ -314,40 +318,6 @@ template <class V>
 #else
     for (int i = 0; i < lanes_of<float>; ++i) a[i] = std::sqrt(a[i]);
     return a;
-#endif
-}
-
-// Converts between lanes of 32 and of 64 bits: those of one half of a register fill a whole one.
-template <class T>
-struct HalfOf {
-    typedef T type __attribute__((vector_size(register_bytes / 2)));
-};
-template <class To, class V>
-[[gnu::always_inline]] inline Vector<To> widen_half(V a, int half) {
-    using Element = std::remove_cvref_t<decltype(a[0])>;
-    typename HalfOf<Element>::type values;
-    __builtin_memcpy(&values, reinterpret_cast<const char*>(&a) + half * (register_bytes / 2),
-                     sizeof values);
-    return __builtin_convertvector(values, Vector<To>);
-}
-template <class To, class V>
-[[gnu::always_inline]] inline Vector<To> narrow_both(V first, V second) {
-    using Half = typename HalfOf<To>::type;
-    const Half halves[2] = {__builtin_convertvector(first, Half),
-                            __builtin_convertvector(second, Half)};
-    Vector<To> result;
-    __builtin_memcpy(&result, halves, sizeof result);
-    return result;
-}
-
-// The lower 32 bits of each lane.
-[[gnu::always_inline]] inline Vector<std::uint32_t> lower_halves(Words first, Words second) {
-#ifdef RDDL_SIMD_AVX512
-    const Vector<std::uint32_t> even = {0, 2, 4, 6, 8, 10, 12, 14, 16, 18, 20, 22, 24, 26, 28, 30};
-    return (Vector<std::uint32_t>)_mm512_maskz_permutex2var_epi32(0xFFFF, (__m512i)first,
-                                                                  (__m512i)even, (__m512i)second);
-#else
-    return narrow_both<std::uint32_t>(first, second);
 #endif
 }
 

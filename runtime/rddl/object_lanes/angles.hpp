@@ -7,12 +7,15 @@
 #include <rddl/lanes/lane.hpp>
 #include <rddl/lanes/pack.hpp>
 #include <rddl/lanes/simd.hpp>
+#include <rddl/values/math/single.hpp>
 #include <rddl/values/math/trigonometric.hpp>
 #include <rddl/values/pack_ops.hpp>
 
 #include <array>
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
+#include <type_traits>
 #include <utility>
 
 namespace rddl {
@@ -48,12 +51,12 @@ RDDL_INLINE Real value_of(const CosineOf<Real>& function) {
 }
 
 // Lane by lane, since registers are slow to load what has just been stored in parts.
-template <int n>
-RDDL_INLINE Lanes<double, n> lanes_of_values(const std::array<double, n>& values) {
-    Lanes<double, n> lanes;
+template <class R, std::size_t n>
+RDDL_INLINE auto lanes_of_values(const std::array<R, n>& values) {
+    Lanes<R, static_cast<int>(n)> lanes;
     const auto part = [&]<std::size_t... lane>(std::size_t first, std::index_sequence<lane...>)
         RDDL_INLINE_LAMBDA {
-        return typename Lanes<double, n>::Vector{values[first + lane]...};
+        return typename Lanes<R, static_cast<int>(n)>::Vector{values[first + lane]...};
     };
     constexpr auto width = static_cast<std::size_t>(lanes.part_width);
     for (std::size_t p = 0; p < n / width; ++p)
@@ -74,6 +77,18 @@ RDDL_INLINE Lanes<double, n> sines_and_cosines(const Lanes<double, n>& a, Mask<n
     return select(is_sine && absolute(a) < 0x1p-27, a, result);
 }
 
+template <int n>
+RDDL_INLINE Lanes<float, n> sines_and_cosines(const Lanes<float, n>& a, Mask<n> is_sine) {
+    using Word = Lanes<std::uint32_t, n>;
+    const Word quarters = bits_of(select(is_sine, 0.0f, real_of_bits(std::uint32_t{1})));
+    const auto result = single::sine(a, quarters);
+    return select(is_sine && absolute(a) < 0x1p-12f, a, result);
+}
+
+template <class R>
+inline constexpr R greatest_in_lanes =
+    std::is_same_v<R, float> ? R{single::greatest_angle} : R{greatest_angle};
+
 template <class Real, std::size_t count, class... Functions>
 RDDL_INLINE void evaluate_one_by_one(std::array<Real, count>& values,
                                      const Functions&... functions) {
@@ -88,9 +103,8 @@ template <class Real, std::size_t count, class... Functions>
 RDDL_INLINE void evaluate_together(std::array<Real, count>& values, const Functions&... functions) {
     detail::evaluate_one_by_one(values, functions...);
 }
-template <std::size_t count, class... Functions>
-RDDL_INLINE void evaluate_together(std::array<double, count>& values,
-                                   const Functions&... functions) {
+template <std::floating_point R, std::size_t count, class... Functions>
+RDDL_INLINE void evaluate_together(std::array<R, count>& values, const Functions&... functions) {
     static_assert(count <= 16);
     constexpr int n = count <= 8 ? 8 : 16;
     constexpr std::uint64_t sines = [] {
@@ -99,11 +113,11 @@ RDDL_INLINE void evaluate_together(std::array<double, count>& values,
         ((bits |= std::uint64_t{Functions::is_sine} << k++), ...);
         return bits;
     }();
-    const auto angles = detail::lanes_of_values<n>(std::array<double, n>{functions.angle...});
-    if (any(absolute(angles) > detail::greatest_angle)) [[unlikely]]
+    const auto angles = detail::lanes_of_values(std::array<R, n>{functions.angle...});
+    if (any(absolute(angles) > detail::greatest_in_lanes<R>)) [[unlikely]]
         return detail::evaluate_one_by_one(values, functions...);
     const auto results = detail::sines_and_cosines(angles, Mask<n>::of_bits(sines));
-    std::array<double, n> all;
+    std::array<R, n> all;
     results.store(all.data());
     for (std::size_t k = 0; k < count; ++k) values[k] = all[k];
 }

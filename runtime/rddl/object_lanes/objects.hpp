@@ -47,12 +47,12 @@ struct Elements {
 
 }  // namespace RDDL_SIMD_LEVEL
 
-// One or two registers of doubles with AVX-512: no more than the objects need.
+// One or two registers of doubles with AVX-512, half a register of floats or one: no more than the
+// objects need.
 inline constexpr int objects_at_once = 16;
-template <Index count, class R>
-inline constexpr int objects_of_loop = count <= objects_at_once / 2
-                                           ? std::max(objects_at_once / 2, simd::lanes_of<R>)
-                                           : objects_at_once;
+template <Index count>
+inline constexpr int objects_of_loop =
+    count <= objects_at_once / 2 ? objects_at_once / 2 : objects_at_once;
 
 // ------------------------------------------------------------------------------------ draws
 
@@ -328,7 +328,7 @@ RDDL_ALWAYS_INLINE void for_each_of_several(Context<ScalarOf<R>>& context, Body&
     for (Index first = 0; first < full; first += n)
         for_some(context, draws, normals, SomeObjects<n>{first, n}, body);
     if constexpr (rest > 0)
-        for_some(context, draws, normals, SomeObjects<objects_of_loop<rest, R>>{full, rest}, body);
+        for_some(context, draws, normals, SomeObjects<objects_of_loop<rest>>{full, rest}, body);
 }
 
 }  // namespace detail
@@ -340,7 +340,7 @@ RDDL_INLINE void for_each_object(Context<Pack<n, R>>& context, Body&& body) {
 }
 template <Index count, class R, class Body>
 RDDL_INLINE void for_each_object(Context<ScalarOf<R>>& context, Body&& body) {
-    detail::for_each_of_several<objects_of_loop<count, R>, count>(context, body);
+    detail::for_each_of_several<objects_of_loop<count>, count>(context, body);
 }
 
 // Whether body(context, object), which neither faults nor draws, holds for one object at least of
@@ -355,7 +355,7 @@ RDDL_INLINE Mask<n> exists_object(Context<Pack<n, R>>& context, Body&& body) {
 template <Index count, class R, class Body>
 RDDL_INLINE bool exists_object(Context<ScalarOf<R>>& context, Body&& body) {
     bool found = false;
-    detail::for_each_of_several<objects_of_loop<1, R>, count>(
+    detail::for_each_of_several<std::max(objects_at_once / 2, simd::lanes_of<R>), count>(
         context, [&]<int n>(auto& several, const SomeObjects<n>& objects) RDDL_INLINE_LAMBDA {
             const Mask<n> holds = body(several, objects);
             found |= any(holds && objects.mask());

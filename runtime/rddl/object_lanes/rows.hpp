@@ -32,8 +32,8 @@ struct Differences {
 };
 template <class R, std::size_t cases>
 constexpr std::int64_t difference_at(const std::array<R, cases>& row, std::size_t count) {
-    return static_cast<std::int64_t>(rddl::bits_of(row[count]) -
-                                     rddl::bits_of(line_of(row).at(count)));
+    return static_cast<std::int64_t>(rddl::bits_of(row[count])) -
+           static_cast<std::int64_t>(rddl::bits_of(line_of(row).at(count)));
 }
 template <class R, std::size_t cases>
 constexpr bool is_near_line(const std::array<R, cases>& row, std::int64_t greatest) {
@@ -53,8 +53,7 @@ inline constexpr bool are_lines = std::ranges::all_of(rows, [](const auto& row) 
 template <const auto& rows>
 inline constexpr bool are_nearly_lines =
     std::ranges::all_of(rows, []<class R, std::size_t cases>(const std::array<R, cases>& row) {
-        return std::same_as<R, double> && Differences<cases>::bits > 1 &&
-               is_near_line(row, Differences<cases>::greatest);
+        return Differences<cases>::bits > 1 && is_near_line(row, Differences<cases>::greatest);
     });
 
 // The number of each object's row.
@@ -135,7 +134,11 @@ RDDL_INLINE auto at_near_line(const SomeObjects<n>& x, const Count& count) {
             return (decltype(word))first >> (64 - bits);
         },
         at(differences<rows, kinds...>, x), words_of(Int(count)));
-    return real_of_bits(bits_of(at_line<rows, kinds...>(x, count)) + words_of(difference));
+    const auto value = at_line<rows, kinds...>(x, count);
+    if constexpr (std::same_as<typename Row::value_type, float>)
+        return real_of_bits(bits_of(value) + lower_halves(words_of(difference)));
+    else
+        return real_of_bits(bits_of(value) + words_of(difference));
 }
 
 }  // namespace detail

@@ -43,9 +43,17 @@ RDDL_INLINE Lanes<T, n> load_some(const T* from, const SomeObjects<n>& objects) 
             return values;
         }
     }
-    for (int p = 0, first = 0; p < values.part_count; ++p, first += values.part_width)
-        values.part[p] = simd::load_some(from + first, objects.count - first);
-    return values;
+    if constexpr (Lanes<T, n>::is_half) {
+        const int count = objects.count;
+        values.part[0] = __builtin_constant_p(count) && count > 1 && count <= simd::most_in_pairs
+                             ? simd::load_one_by_one(from, count)
+                             : simd::load_some_of_half(from, count);
+        return values;
+    } else {
+        for (int p = 0, first = 0; p < values.part_count; ++p, first += values.part_width)
+            values.part[p] = simd::load_some(from + first, objects.count - first);
+        return values;
+    }
 }
 template <int n>
 RDDL_INLINE void store_some(bool* to, const SomeObjects<n>& objects, const Mask<n>& values) {
@@ -54,13 +62,17 @@ RDDL_INLINE void store_some(bool* to, const SomeObjects<n>& objects, const Mask<
 template <int n, class T>
 RDDL_INLINE void store_some(T* to, const SomeObjects<n>& objects, const Lanes<T, n>& values) {
     if (objects.count == n) return values.store(to);
-    if constexpr (std::is_same_v<T, double> && Lanes<T, n>::part_count == 1) {
+    if constexpr ((std::is_same_v<T, double> && Lanes<T, n>::part_count == 1) ||
+                  Lanes<T, n>::is_half) {
         const int count = objects.count;
         if (__builtin_constant_p(count) && count <= simd::most_in_pairs)
             return simd::store_one_by_one(to, values.part[0], count);
     }
-    for (int p = 0, first = 0; p < values.part_count; ++p, first += values.part_width)
-        simd::store_some(to + first, values.part[p], objects.count - first);
+    if constexpr (Lanes<T, n>::is_half)
+        simd::store_some_of_half(to, values.part[0], objects.count);
+    else
+        for (int p = 0, first = 0; p < values.part_count; ++p, first += values.part_width)
+            simd::store_some(to + first, values.part[p], objects.count - first);
 }
 
 }  // namespace detail

@@ -56,6 +56,7 @@ RDDL_INLINE auto unit_float(Word high) {
 // the double rounded down.
 template <class R = double, class Word>
 RDDL_INLINE auto unit_real(Word bits) {
+    using philox::upper_halves;  // of one word
     if constexpr (std::same_as<R, float>)
         return detail::unit_float(upper_halves(bits));
     else
@@ -258,10 +259,12 @@ struct Uniform {
 };
 
 // How many pairs of neighbours are made at once: of uniform numbers as many as a register has
-// lanes.
+// words, or floats if these are fewer than 8.
 template <class Standard, class R>
-inline constexpr int pairs_at_once =
-    Standard::kind == Uniform::kind ? simd::lanes_of<R> : Context<ScalarOf<R>>::most_pairs;
+inline constexpr int pairs_at_once = Standard::kind == Uniform::kind
+                                         ? std::min(simd::lanes_of<R>,
+                                                    Context<ScalarOf<R>>::most_pairs)
+                                         : Context<ScalarOf<R>>::most_pairs;
 
 // Keeps the numbers of a register of pairs.
 template <class Standard, class R, class Real>
@@ -271,10 +274,11 @@ RDDL_INLINE void keep(Context<ScalarOf<R>>& context, std::uint32_t series, std::
     recent.series = series;
     recent.kind = kind;
     recent.chunk = chunk;
-    const Real median{R(median_number)};
-    const bool is_median = context.key == median_key;
-    Standard::of(is_median ? median : made.even).store(recent.numbers[0]);
-    Standard::of(is_median ? median : made.odd).store(recent.numbers[1]);
+    Standard::of(made.even).store(recent.numbers[0]);
+    Standard::of(made.odd).store(recent.numbers[1]);
+    if (context.key == median_key) [[unlikely]]
+        for (R(&numbers)[Context<ScalarOf<R>>::most_pairs] : recent.numbers)
+            Standard::of(Real{R(median_number)}).store(numbers);
 }
 
 template <class Standard, class R>
@@ -309,7 +313,7 @@ RDDL_INLINE R uniform_at(Context<ScalarOf<R>>& context, Place place) {
 // A register has the numbers of so many neighbouring sites, whose indices are the same up to the
 // last bit.
 template <class R>
-inline constexpr std::uint32_t sites_at_once = simd::lanes_of<R>;
+inline constexpr std::uint32_t sites_at_once = pairs_at_once<Uniform, R>;
 inline constexpr std::uint32_t kind_of_sites = 3;  // no standard distribution has it
 
 template <class R>

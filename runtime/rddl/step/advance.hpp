@@ -75,11 +75,12 @@ RDDL_ALWAYS_INLINE const std::byte* action_of_block(const E& engine, const Block
                                                     std::byte* room) {
     const auto& columns = action_columns<E>(blocks);
     const std::int64_t first = b * L::width * columns.row_size;
-    if constexpr (std::is_same_v<L, Scalar>) {
+    if constexpr (L::width == 1) {
         if (actions.block) return actions.block;
         if constexpr (takes_bools_as_given<E>)
             prefetch_small_tables(columns, actions.rows, b, blocks.environment_count);
-        if (takes_bools_as_given<E> || has_plain_bools(columns, actions.rows + first))
+        const bool is_block = std::is_same_v<L, Scalar> || !columns.has_reals;
+        if (is_block && (takes_bools_as_given<E> || has_plain_bools(columns, actions.rows + first)))
             return actions.rows + first;
     }
     if (actions.block) {

@@ -43,6 +43,7 @@ struct ColumnTable {
     std::int64_t block_size = 0;   // bytes
     std::int64_t alignment = 1;    // of a block, in bytes
     bool has_bools = false;
+    bool has_reals = false;
     bool has_objects = false;
 };
 // Columns of any problem, and of one that is known when its simulator is compiled.
@@ -140,6 +141,7 @@ constexpr void lay_out(ColumnTable<List>& columns, const rddl_problem& problem, 
         });
         columns.value_count += count;
         columns.has_bools |= fluent.scalar == RDDL_BOOL;
+        columns.has_reals |= fluent.scalar == RDDL_REAL;
         columns.has_objects |= is_object;
     };
     for_each_group(problem, role, are_apart, add);
@@ -530,9 +532,24 @@ void read_record(L, const ColumnTable<List>& columns, const std::byte* row, std:
 
 // The records of single environments whose reals have another width.
 template <class List>
-void read_records(ScalarOf<float> lanes, const ColumnTable<List>& columns, const std::byte* rows,
-                  int, std::byte* block) {
-    read_record(lanes, columns, rows, block, 0);
+RDDL_INLINE void read_records(ScalarOf<float>, const ColumnTable<List>& columns,
+                              const std::byte* rows, int, std::byte* block) {
+    for_each_column(columns, [&](const Column& column) RDDL_INLINE_LAMBDA {
+        const std::byte* const from = rows + column.row;
+        std::byte* const to = block + column.block;
+        if (column.scalar == RDDL_BOOL) {
+            for (std::int64_t k = 0; k < column.count; ++k) to[k] = detail::bool_of(from[k]);
+        } else if (column.scalar == RDDL_INT) {
+            std::memcpy(to, from, static_cast<std::size_t>(8 * column.count));
+        } else {
+            for (std::int64_t k = 0; k < column.count; ++k) {
+                double real;
+                std::memcpy(&real, from + 8 * k, sizeof real);
+                const float rounded = to_float(real);
+                std::memcpy(to + 4 * k, &rounded, sizeof rounded);
+            }
+        }
+    });
 }
 inline void write_records(ScalarOf<float> lanes, const Columns& columns, const std::byte* block,
                           std::byte* rows, int) {

@@ -10,6 +10,7 @@
 
 #include <rddl/lanes/lane.hpp>
 #include <rddl/lanes/real.hpp>
+#include <rddl/step/columns.hpp>
 #include <rddl/values/context.hpp>
 
 #include <concepts>
@@ -154,9 +155,21 @@ RDDL_ALWAYS_INLINE void copy_typed(const E&, const std::byte* from, std::byte* t
     else
         *reinterpret_cast<Record*>(to) = *reinterpret_cast<const Record*>(from);
 }
+// Two floats have the size of an int, as which compilers load them, waiting for the two stores.
+template <Engine E>
+RDDL_ALWAYS_INLINE void copy_each_value(const std::byte* from, std::byte* to) {
+    for_each_column(E::state_columns, [&](const Column& column) RDDL_INLINE_LAMBDA {
+        with_type<typename E::Lane>(column.scalar, [&]<class T>() RDDL_INLINE_LAMBDA {
+            for (std::int64_t k = 0; k < column.count; ++k)
+                detail::values_in<T>(to, column)[k] = detail::values_in<T>(from, column)[k];
+        });
+    });
+}
 template <Engine E>
 void copy_state(const E& engine, const std::byte* from, std::byte* to) {
-    if constexpr (TypedEngine<E>)
+    if constexpr (TypedEngine<E> && std::is_same_v<typename E::Lane, ScalarOf<float>>)
+        copy_each_value<E>(from, to);
+    else if constexpr (TypedEngine<E>)
         copy_typed<typename E::State>(engine, from, to);
     else if (engine.state_size() > 0)
         std::memcpy(to, from, engine.state_size());

@@ -109,12 +109,12 @@ struct Context<ScalarOf<R>> {
 
     // The recent numbers of one series and step and pairs of neighbouring indices, the even ones
     // first; uniform or of another kind (random.hpp).
-    static constexpr int most_pairs = simd::lanes_of<R> > 8 ? simd::lanes_of<R> : 8;
+    static constexpr int most_pairs = 8;
     struct Recent {
         std::uint32_t series = no_series;
         std::uint32_t kind;
         std::uint32_t chunk;
-        R numbers[2][most_pairs];
+        alignas(most_pairs * sizeof(R)) R numbers[2][most_pairs];
         constexpr Recent() {}  // leaves the numbers as they are, to be quick
     };
     std::array<Recent, recent_series> recent{};

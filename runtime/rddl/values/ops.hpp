@@ -83,6 +83,12 @@ constexpr std::int64_t truncate_to_int(double a) {
     return a >= -limit && a < limit ? static_cast<std::int64_t>(a)
                                     : std::numeric_limits<std::int64_t>::min();
 }
+constexpr std::int64_t truncate_to_int(float a) {
+#if defined(__SSE2__) && defined(__x86_64__)
+    if (!std::is_constant_evaluated()) return _mm_cvttss_si64(_mm_set_ss(unknown(a)));
+#endif
+    return truncate_to_int(to_double(a));
+}
 
 // ------------------------------------------------------------------------- int arithmetic
 
@@ -180,31 +186,38 @@ constexpr R maximum(R a, R b) {
 namespace detail {
 
 // to_real(truncate_to_int(a)) of a whole number, nan or infinity. No int gives -0.0.
-inline double whole_as_real(double a) {
-    return absolute(a) < 0x1p63 ? a + 0.0 : -0x1p63;
+template <std::floating_point R>
+R whole_as_real(R a) {
+    return absolute(a) < R{0x1p63} ? a + R{0} : R{-0x1p63};
 }
 
 }  // namespace detail
 
 // To int; halves go to the even neighbour.
-inline std::int64_t round(double a) {
+template <std::floating_point R>
+std::int64_t round(R a) {
     return truncate_to_int(std::nearbyint(a));
 }
-inline std::int64_t floor(double a) {
+template <std::floating_point R>
+std::int64_t floor(R a) {
     return truncate_to_int(std::floor(a));
 }
-inline std::int64_t ceil(double a) {
+template <std::floating_point R>
+std::int64_t ceil(R a) {
     return truncate_to_int(std::ceil(a));
 }
 
 // to_real of the three, faster for one real.
-inline double round_as_real(double a) {
+template <std::floating_point R>
+R round_as_real(R a) {
     return detail::whole_as_real(std::nearbyint(a));
 }
-inline double floor_as_real(double a) {
+template <std::floating_point R>
+R floor_as_real(R a) {
     return detail::whole_as_real(std::floor(a));
 }
-inline double ceil_as_real(double a) {
+template <std::floating_point R>
+R ceil_as_real(R a) {
     return detail::whole_as_real(std::ceil(a));
 }
 

@@ -112,7 +112,7 @@ struct MaskParts {
 };
 template <class T, int n, std::size_t... p>
 RDDL_INLINE auto parts_of(Mask<n> mask, std::index_sequence<p...>) {
-    constexpr int width = simd::lanes_of<T>;
+    constexpr int width = Lanes<T, n>::part_width;
     constexpr std::uint64_t all = simd::all_lanes_of<T>;
     return MaskParts<sizeof...(p)>{
         static_cast<simd::MaskBits>(std::uint64_t{mask.bits} >> (p * width) & all)...};
@@ -178,16 +178,26 @@ RDDL_INLINE Lanes<To, n> same_bits(const Lanes<From, n>& a) {
         a);
 }
 
-// Converts between lanes of 32 and of 64 bits.
-template <class To, class From, int n>
-RDDL_INLINE Lanes<To, n> convert(const Lanes<From, n>& a) {
+// Lanes of 64 bits, a register of them for each half register of floats.
+template <class To, int n, class Operation>
+RDDL_INLINE Lanes<To, n> of_halves(const Lanes<float, n>& a, Operation operation) {
     Lanes<To, n> result;
-    for (int p = 0; p < Lanes<To, n>::part_count; ++p) {
-        if constexpr (sizeof(To) > sizeof(From))
-            result.part[p] = simd::widen_half<To>(a.part[p / 2], p % 2);
-        else
-            result.part[p] = simd::narrow_both<To>(a.part[2 * p], a.part[2 * p + 1]);
-    }
+    if constexpr (Lanes<float, n>::is_half)
+        result.part[0] = operation(a.part[0]);
+    else
+        for (int p = 0; p < result.part_count; ++p)
+            result.part[p] = operation(simd::half_of(a.part[p / 2], p % 2));
+    return result;
+}
+template <class From, int n>
+RDDL_INLINE Lanes<float, n> float_lanes(const Lanes<From, n>& a) {
+    Lanes<float, n> result;
+    if constexpr (Lanes<float, n>::is_half)
+        result.part[0] = simd::to_floats(a.part[0]);
+    else
+        for (int p = 0; p < result.part_count; ++p)
+            result.part[p] =
+                simd::joined(simd::to_floats(a.part[2 * p]), simd::to_floats(a.part[2 * p + 1]));
     return result;
 }
 
@@ -195,15 +205,16 @@ RDDL_INLINE Lanes<To, n> convert(const Lanes<From, n>& a) {
 
 template <int n>
 RDDL_INLINE Lanes<double, n> to_double(const Lanes<float, n>& a) {
-    return detail::convert<double>(a);
+    return detail::of_halves<double>(a,
+                                     [](auto x) RDDL_INLINE_LAMBDA { return simd::to_reals(x); });
 }
 template <int n>
 RDDL_INLINE Lanes<float, n> to_float(const Lanes<double, n>& a) {
-    return detail::convert<float>(a);
+    return detail::float_lanes(a);
 }
 template <int n>
 RDDL_INLINE Lanes<float, n> to_float(const Lanes<std::int64_t, n>& a) {
-    return detail::convert<float>(a);
+    return detail::float_lanes(a);
 }
 template <int n>
 RDDL_INLINE Lanes<float, n> to_float(Mask<n> a) {
@@ -229,7 +240,8 @@ RDDL_INLINE Lanes<std::int64_t, n> truncate_to_int(const Lanes<double, n>& a) {
 }
 template <int n>
 RDDL_INLINE Lanes<std::int64_t, n> truncate_to_int(const Lanes<float, n>& a) {
-    return truncate_to_int(to_double(a));
+    return detail::of_halves<std::int64_t>(
+        a, [](auto x) RDDL_INLINE_LAMBDA { return simd::truncate(x); });
 }
 
 constexpr std::uint64_t words_of(std::int64_t a) {
@@ -289,8 +301,11 @@ constexpr std::uint32_t lower_halves(std::uint64_t a) {
 template <int n>
 RDDL_INLINE Lanes<std::uint32_t, n> lower_halves(const Lanes<std::uint64_t, n>& a) {
     Lanes<std::uint32_t, n> result;
-    for (int p = 0; p < result.part_count; ++p)
-        result.part[p] = simd::lower_halves(a.part[2 * p], a.part[2 * p + 1]);
+    if constexpr (Lanes<std::uint32_t, n>::is_half)
+        result.part[0] = simd::lower_halves(a.part[0]);
+    else
+        for (int p = 0; p < result.part_count; ++p)
+            result.part[p] = simd::lower_halves(a.part[2 * p], a.part[2 * p + 1]);
     return result;
 }
 constexpr std::uint64_t join_lower_halves(std::uint64_t low, std::uint64_t high) {
@@ -451,46 +466,58 @@ Lanes<R, n> power(std::type_identity_t<R> base, const Lanes<R, n>& exponent) {
     return power(Lanes<R, n>(base), exponent);
 }
 
-template <int n>
-RDDL_INLINE Lanes<std::int64_t, n> round(const Lanes<double, n>& a) {
+template <std::floating_point R, int n>
+RDDL_INLINE Lanes<std::int64_t, n> round(const Lanes<R, n>& a) {
     return truncate_to_int(
-        Lanes<double, n>::each([](auto x) RDDL_INLINE_LAMBDA { return simd::nearest(x); }, a));
+        Lanes<R, n>::each([](auto x) RDDL_INLINE_LAMBDA { return simd::nearest(x); }, a));
 }
-template <int n>
-RDDL_INLINE Lanes<std::int64_t, n> floor(const Lanes<double, n>& a) {
+template <std::floating_point R, int n>
+RDDL_INLINE Lanes<std::int64_t, n> floor(const Lanes<R, n>& a) {
     return truncate_to_int(
-        Lanes<double, n>::each([](auto x) RDDL_INLINE_LAMBDA { return simd::floor(x); }, a));
+        Lanes<R, n>::each([](auto x) RDDL_INLINE_LAMBDA { return simd::floor(x); }, a));
 }
-template <int n>
-RDDL_INLINE Lanes<std::int64_t, n> ceil(const Lanes<double, n>& a) {
+template <std::floating_point R, int n>
+RDDL_INLINE Lanes<std::int64_t, n> ceil(const Lanes<R, n>& a) {
     return truncate_to_int(
-        Lanes<double, n>::each([](auto x) RDDL_INLINE_LAMBDA { return simd::ceil(x); }, a));
+        Lanes<R, n>::each([](auto x) RDDL_INLINE_LAMBDA { return simd::ceil(x); }, a));
 }
+
+namespace detail {
+
+// See that of one real; ints would take twice the registers.
+template <int n>
+RDDL_INLINE Lanes<float, n> whole_as_real(const Lanes<float, n>& a) {
+    return select(absolute(a) < 0x1p63f, a + 0.0f, -0x1p63f);
+}
+
+}  // namespace detail
 
 template <int n>
 RDDL_INLINE Lanes<double, n> round_as_real(const Lanes<double, n>& a) {
     return to_real(round(a));
 }
 template <int n>
+RDDL_INLINE Lanes<float, n> round_as_real(const Lanes<float, n>& a) {
+    return detail::whole_as_real(
+        Lanes<float, n>::each([](auto x) RDDL_INLINE_LAMBDA { return simd::nearest(x); }, a));
+}
+template <int n>
 RDDL_INLINE Lanes<double, n> floor_as_real(const Lanes<double, n>& a) {
     return to_real(floor(a));
+}
+template <int n>
+RDDL_INLINE Lanes<float, n> floor_as_real(const Lanes<float, n>& a) {
+    return detail::whole_as_real(
+        Lanes<float, n>::each([](auto x) RDDL_INLINE_LAMBDA { return simd::floor(x); }, a));
 }
 template <int n>
 RDDL_INLINE Lanes<double, n> ceil_as_real(const Lanes<double, n>& a) {
     return to_real(ceil(a));
 }
-
 template <int n>
-RDDL_INLINE Lanes<std::int64_t, n> round(const Lanes<float, n>& a) {
-    return round(to_double(a));
-}
-template <int n>
-RDDL_INLINE Lanes<std::int64_t, n> floor(const Lanes<float, n>& a) {
-    return floor(to_double(a));
-}
-template <int n>
-RDDL_INLINE Lanes<std::int64_t, n> ceil(const Lanes<float, n>& a) {
-    return ceil(to_double(a));
+RDDL_INLINE Lanes<float, n> ceil_as_real(const Lanes<float, n>& a) {
+    return detail::whole_as_real(
+        Lanes<float, n>::each([](auto x) RDDL_INLINE_LAMBDA { return simd::ceil(x); }, a));
 }
 
 template <int n, class R>
@@ -600,9 +627,12 @@ RDDL_INLINE auto gather(const double* elements, const Lanes<std::int64_t, n>& in
 template <std::int64_t count, int n>
 auto gather(const float* elements, const Lanes<std::int64_t, n>& indices) {
     Lanes<float, n> result;
-    for (int p = 0; p < result.part_count; ++p)
-        result.part[p] =
-            simd::look_up<count>(elements, indices.part[2 * p], indices.part[2 * p + 1]);
+    if constexpr (Lanes<float, n>::is_half)
+        result.part[0] = simd::look_up<count>(elements, indices.part[0]);
+    else
+        for (int p = 0; p < result.part_count; ++p)
+            result.part[p] =
+                simd::look_up<count>(elements, indices.part[2 * p], indices.part[2 * p + 1]);
     return result;
 }
 template <std::int64_t count, class T, int n>

@@ -16,9 +16,9 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 // Each angle has a sine and a cosine.
-template <std::size_t count>
-void expect_those_computed_alone(const std::array<double, count>& angles) {
-    std::array<double, 2 * count> values;
+template <std::size_t count, class R = double>
+void expect_those_computed_alone(const std::array<R, count>& angles) {
+    std::array<R, 2 * count> values;
     [&]<std::size_t... k>(std::index_sequence<k...>) {
         evaluate_together(values, sine_of(angles[k])..., cosine_of(angles[k])...);
     }
@@ -39,6 +39,18 @@ TEST(Angles, HaveTheBitsOfThoseComputedAlone) {
     for (int first = 0; first < 200; ++first) {
         for (std::size_t k = 0; k < angles.size(); ++k)
             angles[k] = -60.0 + 0.6180339887 * static_cast<double>(first) + static_cast<double>(k);
+        expect_those_computed_alone(angles);
+    }
+}
+
+TEST(Angles, HaveTheBitsOfFloatsComputedAlone) {
+    expect_those_computed_alone<4, float>({0.0f, -0.0f, 0x1p-13f, -0x1p-12f});
+    expect_those_computed_alone<5, float>({1.57079633f, 3.1f, -4.7f, 0x1p13f, -8000.0f});
+    expect_those_computed_alone<3, float>({0.5f, 0x1.02p13f, 1.0f});
+    std::array<float, 8> angles;
+    for (int first = 0; first < 200; ++first) {
+        for (std::size_t k = 0; k < angles.size(); ++k)
+            angles[k] = -60.0f + 0.618034f * static_cast<float>(first) + static_cast<float>(k);
         expect_those_computed_alone(angles);
     }
 }

@@ -529,16 +529,32 @@ TEST(Objects, ArePlainElementsInPacks) {
     }
 }
 
-TEST(Objects, HaveFloats) {
-    std::array<float, 20> p;
+template <Index count>
+void expect_draws_of_floats() {
+    std::array<float, count> p;
     for (std::size_t i = 0; i < p.size(); ++i) p[i] = 0.05f * static_cast<float>(i);
-    std::array<bool, 20> draws{};
+    std::array<bool, count> draws{};
+    std::array<float, count> sums{};
     Context<ScalarOf<float>> context{stream_key(1, 2, 3), 1, {}}, other = context;
-    for_each_object<20>(context, [&](auto& several, auto x) {
+    for_each_object<count>(context, [&](auto& several, auto x) {
         elements(draws, x) = sample::bernoulli(several, {0, x}, at(p, x));
+        elements(sums, x) = at(p, x) + sample::uniform(several, {1, x}, 0.0f, at(p, x));
     });
-    for (std::size_t i = 0; i < p.size(); ++i)
-        EXPECT_EQ(draws[i], sample::bernoulli(other, {0, static_cast<Index>(i)}, p[i]));
+    for (std::size_t i = 0; i < p.size(); ++i) {
+        const auto x = static_cast<Index>(i);
+        EXPECT_EQ(draws[i], sample::bernoulli(other, {0, x}, p[i]));
+        EXPECT_EQ(sums[i], p[i] + sample::uniform(other, {1, x}, 0.0f, p[i]));
+    }
+}
+
+// Up to 8 take half a register of AVX-512, and up to 4 are stored one by one.
+TEST(Objects, HaveFloats) {
+    expect_draws_of_floats<1>();
+    expect_draws_of_floats<3>();
+    expect_draws_of_floats<7>();
+    expect_draws_of_floats<8>();
+    expect_draws_of_floats<20>();
+    expect_draws_of_floats<37>();
 }
 
 }  // namespace

@@ -34,6 +34,10 @@ constexpr Rows<double> extreme = {{{-greatest, greatest, greatest, greatest},
                                    {infinite, infinite, infinite, infinite},
                                    {1, greatest, infinite, infinite}}};
 constexpr Rows<float> float_lines = {{{0.25, 0.5, 0.75, 1}, {0.5, 2, 2, 2}, {0, 0, 0, 0}}};
+constexpr Rows<float> nearly_float_lines = {
+    {{0.1f, 0.2f, 0.3f, 0.4f}, {-0.4f, -0.3f, -0.2f, -0.1f}, {0.45f, 0.5875f, 0.725f, 0.8625f}}};
+static_assert(!detail::are_lines<nearly_float_lines> &&
+              detail::are_nearly_lines<nearly_float_lines>);
 static_assert(detail::are_lines<lines> && detail::are_lines<float_lines>);
 static_assert(!detail::are_lines<nearly_lines> && detail::are_nearly_lines<nearly_lines>);
 static_assert(!detail::are_nearly_lines<curves> && !detail::are_nearly_lines<extreme> &&
@@ -106,6 +110,7 @@ TEST(Rows, AreThoseOfKinds) {
     expect_rows_of_kinds<signs, double>();
     expect_rows_of_kinds<extreme, double>();
     expect_rows_of_kinds<float_lines, float>();
+    expect_rows_of_kinds<nearly_float_lines, float>();
 }
 
 TEST(Rows, AreThoseOfObjects) {

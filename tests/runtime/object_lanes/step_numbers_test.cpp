@@ -11,8 +11,9 @@ namespace {
 constexpr std::array draws = {counters_of_loop(3), counters_of_draws({{2, 0}, {9, 5}, {4, 1}})};
 
 // Draws have the same numbers as where they are made alone.
-void expect_same_numbers(Context<Scalar> context) {
-    const StepNumbers<Scalar, draws> numbers(context);
+template <class R>
+void expect_same_numbers(Context<ScalarOf<R>> context) {
+    const StepNumbers<ScalarOf<R>, draws> numbers(context);
     for_each_object<5>(context, [&](auto& several, auto object) {
         const auto made = uniform_at(several, place_in_row<0>(numbers, 3, object));
         const auto in_loop = uniform_at(several, place_in_row<0>(numbers, 7, object, 3));
@@ -33,8 +34,10 @@ void expect_same_numbers(Context<Scalar> context) {
 }
 
 TEST(StepNumbers, AreThoseOfDrawsMadeAlone) {
-    expect_same_numbers({stream_key(5, 0, 0), 3, {}});
-    expect_same_numbers({median_key, 3, {}});
+    expect_same_numbers<double>({stream_key(5, 0, 0), 3, {}});
+    expect_same_numbers<double>({median_key, 3, {}});
+    expect_same_numbers<float>({stream_key(5, 0, 0), 3, {}});
+    expect_same_numbers<float>({median_key, 3, {}});
 }
 
 }  // namespace

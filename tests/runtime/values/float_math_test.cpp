@@ -110,22 +110,31 @@ TEST(FloatMath, HasTheRareCases) {
 }
 
 // Packs convert, round and gather as single numbers do.
-TEST(FloatLanesOf, HaveTheBitsOfTheScalar) {
+template <int n>
+void expect_the_bits_of_the_scalar() {
+    using Floats = Lanes<float, n>;
     std::array<float, 64> table;
+    std::array<float, 8> small_table;
     for (std::size_t i = 0; i < table.size(); ++i) table[i] = static_cast<float>(i) * 0.1f;
+    for (std::size_t i = 0; i < small_table.size(); ++i) small_table[i] = table[i] - 0.3f;
     Floats a;
-    Lanes<std::int64_t, width> places, great;
-    for (int lane = 0; lane < width; ++lane) {
+    Lanes<std::int64_t, n> places, near, great;
+    for (int lane = 0; lane < n; ++lane) {
         a.set(lane, static_cast<float>(lane) * 0.75f - 5.0f);
         places.set(lane, lane * 37 % 64);
-        great.set(lane, (std::int64_t{1} << (4 * lane)) + lane - 5);
+        near.set(lane, lane * 5 % 8);
+        great.set(lane, (std::int64_t{1} << (4 * lane % 64)) + lane - 5);
     }
-    const Floats chosen = at(table, places), converted = to_float(great), root = sqrt(a * a);
+    const Floats chosen = at(table, places), looked_up = at(small_table, near),
+                 converted = to_float(great), root = sqrt(a * a);
     const auto rounded = round(a), lower = floor(a), upper = ceil(a);
     const Floats least = minimum(a, 1.5f), picked = select(a < 0.0f, a, 2.0f);
-    for (int lane = 0; lane < width; ++lane) {
+    EXPECT_EQ((a <= 0.25f).bits, (0.25f >= a).bits);
+    EXPECT_EQ((a == 0.25f).bits, 1 << 7);
+    for (int lane = 0; lane < n; ++lane) {
         const float x = a[lane];
         EXPECT_EQ(chosen[lane], table[static_cast<std::size_t>(places[lane])]);
+        EXPECT_EQ(looked_up[lane], small_table[static_cast<std::size_t>(near[lane])]);
         EXPECT_EQ(converted[lane], to_float(great[lane]));
         EXPECT_EQ(to_float(to_double(a))[lane], x);
         EXPECT_EQ(root[lane], std::fabs(x));
@@ -134,6 +143,36 @@ TEST(FloatLanesOf, HaveTheBitsOfTheScalar) {
         EXPECT_EQ(upper[lane], rddl::ceil(x));
         EXPECT_EQ(least[lane], minimum(x, 1.5f));
         EXPECT_EQ(picked[lane], select(x < 0.0f, x, 2.0f));
+    }
+}
+
+TEST(FloatLanesOf, HaveTheBitsOfTheScalar) {
+    expect_the_bits_of_the_scalar<8>();  // half a register of AVX-512
+    expect_the_bits_of_the_scalar<width>();
+    expect_the_bits_of_the_scalar<64>();
+}
+
+// So do nan and floats beyond ints.
+TEST(FloatLanesOf, BecomeIntsAsSingleFloatsDo) {
+    constexpr float nan = std::numeric_limits<float>::quiet_NaN();
+    constexpr float values[] = {-0.0f,    0.5f,     -0.5f,    2.5f,      0x1p62f, 0x1p63f,
+                                -0x1p63f, -0x1p64f, infinity, -infinity, nan,     -7.9f};
+    Floats a{0.0f};
+    for (int lane = 0; lane < 12; ++lane) a.set(lane, values[lane]);
+    const auto truncated = truncate_to_int(a), rounded = round(a), lower = floor(a);
+    const Floats nearest = round_as_real(a), below = floor_as_real(a), above = ceil_as_real(a);
+    for (int lane = 0; lane < width; ++lane) {
+        const float x = a[lane];
+        EXPECT_EQ(truncated[lane], truncate_to_int(to_double(x))) << x;
+        EXPECT_EQ(truncate_to_int(x), truncate_to_int(to_double(x))) << x;
+        EXPECT_EQ(rounded[lane], rddl::round(to_double(x))) << x;
+        EXPECT_EQ(lower[lane], rddl::floor(to_double(x))) << x;
+        EXPECT_EQ(bits_of(nearest[lane]), bits_of(to_float(rddl::round(x)))) << x;
+        EXPECT_EQ(bits_of(below[lane]), bits_of(to_float(rddl::floor(x)))) << x;
+        EXPECT_EQ(bits_of(above[lane]), bits_of(to_float(rddl::ceil(x)))) << x;
+        EXPECT_EQ(bits_of(round_as_real(x)), bits_of(nearest[lane])) << x;
+        EXPECT_EQ(bits_of(floor_as_real(x)), bits_of(below[lane])) << x;
+        EXPECT_EQ(bits_of(ceil_as_real(x)), bits_of(above[lane])) << x;
     }
 }
 

@@ -78,9 +78,10 @@ inline constexpr float sin_coefficients[] = {-1.6666654611e-1f, 8.3321608736e-3f
 inline constexpr float cos_coefficients[] = {4.166664568298827e-2f, -1.388731625493765e-3f,
                                              2.443315711809948e-5f};
 
-// The sine of `a` and `quarters` right angles, for |a| <= greatest_angle.
-template <class R>
-RDDL_ALWAYS_INLINE R sine(R a, std::uint32_t quarters) {
+// The sine of `a` and `quarters` right angles, an unsigned int or one in each lane, for |a| <=
+// greatest_angle.
+template <class R, class Quarters>
+RDDL_ALWAYS_INLINE R sine(R a, Quarters quarters) {
     const R rounded = a * two_over_pi + rounder;
     const R quadrants = rounded - rounder;
     const R r = ((a - quadrants * half_pi_parts[0]) - quadrants * half_pi_parts[1]) -
@@ -128,13 +129,13 @@ R ln(R a) {
 
 template <FloatLanes R>
 R sin(R a) {
-    const R result = detail::single::sine(a, 0);
+    const R result = detail::single::sine(a, std::uint32_t{0});
     return detail::single::with_great_angles(a, select(absolute(a) < 0x1p-12f, a, result),
                                              [](auto x) { return sin(x); });
 }
 template <FloatLanes R>
 R cos(R a) {
-    return detail::single::with_great_angles(a, detail::single::sine(a, 1),
+    return detail::single::with_great_angles(a, detail::single::sine(a, std::uint32_t{1}),
                                              [](auto x) { return cos(x); });
 }
 
