@@ -112,12 +112,12 @@ TEST(FloatMath, HasTheRareCases) {
 // Packs convert, round and gather as single numbers do.
 template <int n>
 void expect_the_bits_of_the_scalar() {
-    using Floats = Lanes<float, n>;
+    using SomeFloats = Lanes<float, n>;
     std::array<float, 64> table;
     std::array<float, 8> small_table;
     for (std::size_t i = 0; i < table.size(); ++i) table[i] = static_cast<float>(i) * 0.1f;
     for (std::size_t i = 0; i < small_table.size(); ++i) small_table[i] = table[i] - 0.3f;
-    Floats a;
+    SomeFloats a;
     Lanes<std::int64_t, n> places, near, great;
     for (int lane = 0; lane < n; ++lane) {
         a.set(lane, static_cast<float>(lane) * 0.75f - 5.0f);
@@ -125,10 +125,10 @@ void expect_the_bits_of_the_scalar() {
         near.set(lane, lane * 5 % 8);
         great.set(lane, (std::int64_t{1} << (4 * lane % 64)) + lane - 5);
     }
-    const Floats chosen = at(table, places), looked_up = at(small_table, near),
-                 converted = to_float(great), root = sqrt(a * a);
+    const SomeFloats chosen = at(table, places), looked_up = at(small_table, near),
+                     converted = to_float(great), root = sqrt(a * a);
     const auto rounded = round(a), lower = floor(a), upper = ceil(a);
-    const Floats least = minimum(a, 1.5f), picked = select(a < 0.0f, a, 2.0f);
+    const SomeFloats least = minimum(a, 1.5f), picked = select(a < 0.0f, a, 2.0f);
     EXPECT_EQ((a <= 0.25f).bits, (0.25f >= a).bits);
     EXPECT_EQ((a == 0.25f).bits, 1 << 7);
     for (int lane = 0; lane < n; ++lane) {
