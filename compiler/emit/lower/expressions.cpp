@@ -33,13 +33,6 @@ std::string_view rounding_function(Operator op) {
     return op == Operator::Floor ? "floor_as_real" : "ceil_as_real";
 }
 
-// Packs make the numbers of four objects at once, or of two where no more are left. Of many objects
-// these are a small part (docs/decisions.md).
-bool leaves_few_numbers(std::int64_t objects) {
-    constexpr std::int64_t at_once = 4, many = 8;
-    return objects < many && (objects % at_once == 1 || objects % at_once == 2);
-}
-
 }  // namespace
 
 void Uses::add(const Uses& others) {

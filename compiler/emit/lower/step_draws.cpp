@@ -87,14 +87,20 @@ class CertainDraws {
     std::set<ir::NodeId> seen_;
 };
 
-// Packs have a better way for the draws of two objects that are visited one by one.
+// Packs draw for each object, and of some numbers of objects they know a better way.
 bool fills_row(const ir::Program& program, const ir::Loop& loop) {
     const std::int64_t objects = ir::combinations(program, ir::nest_of(loop).variables);
-    return (loop.several_at_once || objects > 2) && objects <= objects_of_row && !loop.as_words &&
-           !loop.affected && !loop.chosen && !loop.clearances;
+    return (loop.several_at_once || (objects > 1 && !leaves_few_numbers(objects))) &&
+           objects <= objects_of_row && !loop.as_words && !loop.affected && !loop.chosen &&
+           !loop.clearances;
 }
 
 }  // namespace
+
+bool leaves_few_numbers(std::int64_t objects) {
+    constexpr std::int64_t at_once = 4, many = 8;
+    return objects < many && (objects % at_once == 1 || objects % at_once == 2);
+}
 
 StepDraws::StepDraws(const ir::Program& program,
                      const std::function<bool(const ir::Place&)>& takes_lane) {

@@ -14,6 +14,11 @@
 
 namespace rddlc::cpp {
 
+// Whether packs, which make the numbers of four objects at once, or of two where no more are left,
+// make fewer if they know that a loop has so many. Of many objects these are a small part
+// (docs/decisions.md).
+bool leaves_few_numbers(std::int64_t objects);
+
 class StepDraws {
   public:
     // The numbers of a row are those of a loop, by its series, or of draws that are made once.
