@@ -56,6 +56,9 @@ inline constexpr std::array<double, basin_count> RAIN_SCALE_ = {6, 10, 15, 10};
 // water, domain.rddl:36
 inline constexpr std::array<double, basin_count> initial_water = {50, 120, 50, 60};
 
+// draws of every step, whose numbers are made together
+inline constexpr std::array step_draws = {rddl::counters_of_loop(0)};
+
 // --------------------------------------------------------------------------------- records
 
 template <class L>
@@ -98,7 +101,8 @@ struct Simulator {
     template <class L>
     static void step(const State<L>& state, const Action<L>& action, Scratch<L>& scratch,
                      State<L>& next, Observation<L>& /*observation*/, rddl::Context<L>& context) {
-        set_balance(state, action, scratch, context);
+        const rddl::StepNumbers<L, step_draws> numbers(context);
+        set_balance(state, action, scratch, context, numbers);
         set_spill(scratch);
         set_water(scratch, next);
     }
@@ -106,11 +110,14 @@ struct Simulator {
     // balance(?b)  (domain.rddl:56)
     template <class L>
     static void set_balance(const State<L>& state, const Action<L>& action, Scratch<L>& scratch,
-                            rddl::Context<L>& context) {
+                            rddl::Context<L>& context,
+                            const rddl::StepNumbers<L, step_draws>& numbers) {
         using Bool = typename L::Bool;
         using Real = typename L::Real;
         for (rddl::Index b = 0; b < basin_count; ++b) {
-            const Bool draw = rddl::sample::valid_bernoulli(context, {0, b}, RAIN_CHANCE_[b]);
+            const Bool draw =
+                rddl::sample::valid_bernoulli(context, rddl::place_in_row<0>(numbers, 0, b),
+                                              RAIN_CHANCE_[b]);
             const Real term = rddl::branch(
                 context, draw,
                 [&] { return rddl::sample::gamma(context, {1, b}, 2.0, RAIN_SCALE_[b]); },
@@ -228,6 +235,9 @@ inline constexpr std::array<std::int64_t, 5> FLOWS_TO_rows_ = {0, 0, 1, 1, 3};
 // FLOWS-TO-up, domain.rddl:18
 inline constexpr std::array<std::int64_t, 3> FLOWS_TO_up_ = {0, 1, 2};
 
+// draws of every step, whose numbers are made together
+inline constexpr std::array step_draws = {rddl::counters_of_loop(0)};
+
 // What the CPFs tell each other within a step.
 template <class L>
 struct Scratch {
@@ -248,7 +258,8 @@ struct Step {
     template <class L>
     static void step(const State<L>& state, const Action<L>& action, Scratch<L>& scratch,
                      State<L>& next, Observation<L>& /*observation*/, rddl::Context<L>& context) {
-        set_balance(state, action, scratch, context);
+        const rddl::StepNumbers<L, step_draws> numbers(context);
+        set_balance(state, action, scratch, context, numbers);
         set_spill(scratch);
         set_water(scratch, next);
     }
@@ -256,11 +267,14 @@ struct Step {
     // balance(?b)  (domain.rddl:56)
     template <class L>
     static void set_balance(const State<L>& state, const Action<L>& action, Scratch<L>& scratch,
-                            rddl::Context<L>& context) {
+                            rddl::Context<L>& context,
+                            const rddl::StepNumbers<L, step_draws>& numbers) {
         using Bool = typename L::Bool;
         using Real = typename L::Real;
         for (rddl::Index b = 0; b < basin_count; ++b) {
-            const Bool draw = rddl::sample::valid_bernoulli(context, {0, b}, RAIN_CHANCE_[b]);
+            const Bool draw =
+                rddl::sample::valid_bernoulli(context, rddl::place_in_row<0>(numbers, 0, b),
+                                              RAIN_CHANCE_[b]);
             const Real term = rddl::branch(
                 context, draw,
                 [&] { return rddl::sample::gamma(context, {1, b}, 2.0, RAIN_SCALE_[b]); },

@@ -36,6 +36,9 @@ inline constexpr std::array<double, beacon_count> BEACON_X_ = {0, 5, 6};
 // BEACON-Y, domain.rddl:18
 inline constexpr std::array<double, beacon_count> BEACON_Y_ = {5, 0, 6};
 
+// draws of every step, whose numbers are made together
+inline constexpr std::array step_draws = {rddl::counters_of_loop(3)};
+
 // --------------------------------------------------------------------------------- records
 
 template <class L>
@@ -94,6 +97,7 @@ struct Simulator {
     template <class L>
     static void step(const State<L>& state, const Action<L>& action, Scratch<L>& scratch,
                      State<L>& next, Observation<L>& observation, rddl::Context<L>& context) {
+        const rddl::StepNumbers<L, step_draws> numbers(context);
         set_course(state, action, scratch, context);
         set_distance(action, scratch, context);
         set_ahead_x(state, scratch);
@@ -106,7 +110,7 @@ struct Simulator {
         set_range_to(scratch, context);
         set_x(scratch, next);
         set_y(scratch, next);
-        set_answers(scratch, context);
+        set_answers(scratch, context, numbers);
         set_echo(scratch, observation);
         set_range(scratch, observation, context);
     }
@@ -206,10 +210,13 @@ struct Simulator {
 
     // answers(?b)  (domain.rddl:82)
     template <class L>
-    static void set_answers(Scratch<L>& scratch, rddl::Context<L>& context) {
+    static void set_answers(Scratch<L>& scratch, rddl::Context<L>& context,
+                            const rddl::StepNumbers<L, step_draws>& numbers) {
+        using Real = typename L::Real;
         for (rddl::Index b = 0; b < beacon_count; ++b) {
+            const Real term = rddl::exp(-scratch.range_to[b] / 6.0);
             scratch.answers[b] =
-                rddl::sample::bernoulli(context, {3, b}, rddl::exp(-scratch.range_to[b] / 6.0));
+                rddl::sample::bernoulli(context, rddl::place_in_row<0>(numbers, 3, b), term);
         }
     }
 

@@ -11,6 +11,7 @@
 #include <dlfcn.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cstdlib>
 #include <iostream>
 #include <stdexcept>
@@ -29,9 +30,13 @@ Function* load(const char* file, const char* name) {
     return function;
 }
 
+// Legal actions are slow to draw, and the first steps of a batch are all near the initial state.
+constexpr double least_seconds_of_drawing = 2;
+
 json compare(const rddl_simulator& emitted, const rddl_simulator& reference,
              std::int64_t environments, double seconds, int rounds) {
-    const auto course = rddlc::workbench::draw_course(emitted, environments, seconds);
+    const auto course = rddlc::workbench::draw_course(emitted, environments,
+                                                      std::max(seconds, least_seconds_of_drawing));
     json figures{{"environments", environments},
                  {"difference", handwritten::greatest_difference(emitted, reference, course)},
                  {"emitted", json::array()},
