@@ -32,8 +32,9 @@ struct Differences {
 };
 template <class R, std::size_t cases>
 constexpr std::int64_t difference_at(const std::array<R, cases>& row, std::size_t count) {
-    return static_cast<std::int64_t>(rddl::bits_of(row[count])) -
-           static_cast<std::int64_t>(rddl::bits_of(line_of(row).at(count)));
+    const auto bits = rddl::bits_of(row[count]);  // the difference wraps around
+    using Difference = std::make_signed_t<std::remove_const_t<decltype(bits)>>;
+    return static_cast<Difference>(bits - rddl::bits_of(line_of(row).at(count)));
 }
 template <class R, std::size_t cases>
 constexpr bool is_near_line(const std::array<R, cases>& row, std::int64_t greatest) {

@@ -27,6 +27,9 @@ constexpr Rows<double> nearly_lines = {
 // One element is too far from its line, and one has another sign.
 constexpr Rows<double> hardly_lines = {{{0.1, 0.2, 0.3000000000001, 0.4}, {0, 1, 2, 3}, {}}};
 constexpr Rows<double> signs = {{{0, 0, -0.0, 0}, {0, 1, 2, 3}, {0, 1, 2, 3}}};
+// The bits of an element and of the line differ by more than an int has.
+constexpr Rows<double> apart = {{{0, 1, -1, 3}, {0, 1, 2, 3}, {0, 1, 2, 3}}};
+static_assert(!detail::are_nearly_lines<apart>);
 // Differences of these overflow, or are nan.
 constexpr double greatest = std::numeric_limits<double>::max();
 constexpr double infinite = std::numeric_limits<double>::infinity();
