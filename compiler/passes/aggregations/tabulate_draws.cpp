@@ -25,7 +25,7 @@ constexpr std::int64_t most_outcomes = 4096;
 class DrawTables {
   public:
     DrawTables(ir::Program program, Report& report)
-        : program_(std::move(program)), report_(report), builder_(program_), evaluator_(program_) {}
+        : program_(std::move(program)), report_(report), builder_(program_) {}
 
     ir::Program run() && {
         for (ir::Definition* definition : ir::definitions_of(program_))
@@ -122,10 +122,11 @@ class DrawTables {
             indices.push_back(builder_.index(variables.back()));
         }
         const ir::NodeId any = builder_.load(element.buffer, std::move(indices));
+        const ir::Evaluator evaluator(program_);  // which has room for these variables
         const auto values_for = [&](bool draw) {
             std::map<ir::NodeId, ir::NodeId> known{{*parts.element, any},
                                                    {*parts.draw, builder_.constant(draw)}};
-            return constant_values(evaluator_, program_, ir::replace_in(builder_, id, known),
+            return constant_values(evaluator, program_, ir::replace_in(builder_, id, known),
                                    variables);
         };
         const auto if_false = values_for(false), if_true = values_for(true);
@@ -147,7 +148,6 @@ class DrawTables {
     ir::Program program_;
     Report& report_;
     ir::Builder builder_;
-    ir::Evaluator evaluator_;
     std::string name_;  // of what is computed
     Span span_;
     std::map<ir::NodeId, ir::NodeId> done_;
