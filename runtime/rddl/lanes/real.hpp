@@ -57,16 +57,8 @@ constexpr float to_float(double a) {
 
 // The same number, which the C++ compiler does not know: functions of numbers that it knows are
 // computed by it, exactly, and not as the mathematical library does.
-inline double unknown(double a) {
-#ifdef __SSE2__
-    asm("" : "+x"(a));
-#else
-    asm("" : "+m"(a));
-#endif
-    return a;
-}
-
-inline float unknown(float a) {
+template <std::floating_point R>
+R unknown(R a) {
 #ifdef __SSE2__
     asm("" : "+x"(a));
 #else
