@@ -32,6 +32,7 @@
 #include "passes/arithmetic/find_ranges.hpp"
 #include "passes/arithmetic/prove_invariants.hpp"
 #include "passes/arithmetic/reduce_strength.hpp"
+#include "passes/arithmetic/shorten_invariants.hpp"
 #include "passes/arithmetic/straighten_rows.hpp"
 #include "passes/constants/fold_constant_expressions.hpp"
 #include "passes/constants/fold_uniform_tables.hpp"
@@ -139,6 +140,12 @@ constexpr Pass in_order[] = {
      {"fuse_interm_fluents"},
      "the min or max that keeps it stands in the CPF itself",
      only_fast_math},
+    {"shorten_invariants",
+     Phase::Arithmetic,
+     shorten_invariants,
+     "of two bounds of a number, one that every step keeps is not tested",
+     {"prove_invariants"},
+     "what is proved needs no bound"},
     {"index_directly",
      Phase::Aggregations,
      index_directly,

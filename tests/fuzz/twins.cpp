@@ -123,7 +123,6 @@ Shown shown(const ir::Interpreter& engine, const Situation& at, Record& scratch,
     const std::byte* state = at.state.data();
     result.violated_precondition =
         engine.violated_precondition(state, at.action.data(), conditions);
-    result.violates_invariant = engine.violates_invariant(state, conditions);
     result.terminal = engine.terminal(state, conditions);
     Context context = context_of(seed, at.step);
     result.reward = engine.step(state, at.action.data(), scratch.data(), result.next.data(),
@@ -214,8 +213,6 @@ void expect_step(Comparison& comparison, const Shown& expected, const Shown& fou
     }
     comparison.expect("the first precondition violated", expected.violated_precondition,
                       found.violated_precondition);
-    comparison.expect("whether an invariant is violated", expected.violates_invariant,
-                      found.violates_invariant);
     comparison.expect("whether the state is terminal", expected.terminal, found.terminal);
     // A state that was rounded may lie on the other side of a bound.
     if (expected.next == found.next) {

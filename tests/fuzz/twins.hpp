@@ -27,7 +27,7 @@ struct Shown {
     double reward = 0;
     int violated_precondition = -1;
     // Conditions of the state, and of the next one.
-    bool terminal = false, violates_invariant = false;
+    bool terminal = false;
     bool next_terminal = false, next_violates_invariant = false;
     rddl::FaultRecord of_step, of_conditions, of_policy;
 };

@@ -48,7 +48,7 @@ class SumTabulation {
         const auto condition = only_bool(sum.body);
         if (!condition ||
             !ir::depends_on_none_but(builder_.properties(*condition), {&sum.variable, 1}) ||
-            !reads_spread_row(*condition))
+            (!reads_spread_row(*condition) && !is_in_short_row_of_state(*condition)))
             return std::nullopt;
         const auto if_true = values_where(sum, *condition, true),
                    if_false = values_where(sum, *condition, false);
@@ -185,6 +185,17 @@ class SumTabulation {
             const auto buffer = ir::buffer_read_by(program_[each]);
             return buffer && spread_into(*buffer);
         });
+    }
+
+    // An element of a row that is one load of the record, or its opposite: other bools of the step
+    // would have to be joined first. Behind a table, terms are added as fast as they are looked up.
+    bool is_in_short_row_of_state(ir::NodeId id) const {
+        const auto* negation = std::get_if<ir::Apply>(&program_[id].form);
+        if (negation && negation->op == Operator::Not) id = negation->operands.front();
+        const auto* load = std::get_if<ir::Load>(&program_[id].form);
+        return load && program_[load->buffer].storage == ir::Storage::State &&
+               load->indices.size() == 1 && program_[load->buffer].count() <= most_in_table &&
+               std::holds_alternative<ir::Index>(program_[load->indices.front()].form);
     }
 
     ir::Program program_;

@@ -7,8 +7,9 @@
 //     reward-sums[bit_and(bit_or(room-bit[scratch.robs[0]], room-bit[scratch.robs[1]]),
 //                         bit_xor(bits(state.shut, 0), 255))]
 //
-// One row at least has to be spread from an int (set_bits.hpp): to make the bits of other bools
-// alone takes longer than to add the terms. Bools that are no row get a table:
+// One row at least has to be spread from an int (set_bits.hpp), or the bools alone are a short row
+// of the state, whose bits one load makes: to make the bits of other bools takes longer than to add
+// the terms. Bools that are no row get a table:
 //
 //     for a in room
 //         scratch.reward-bools[a] = exists[g in guard](action.watch[a, g])

@@ -8,7 +8,8 @@
 //                                                   reward: scratch.angles[2]
 //
 // One environment has them in the lanes of a vector register. Only those count that every step
-// needs, whose angles are known before it, and which do not depend on a loop.
+// needs, whose angles are known before it, and which do not depend on a loop. Terminations and
+// invariants, which are tested in the new state, have calls of their own.
 #pragma once
 
 #include "ir/ir.hpp"

@@ -96,13 +96,26 @@ TEST(TabulateSums, AddsFloatsAsSuch) {
     EXPECT_EQ(table_text(left, "reward-sums"), "");
 }
 
+TEST(TabulateSums, LooksUpTheSumsOfAShortRowOfTheState) {
+    const auto line_of = [](const std::string& reward, int objects) {
+        passes::Report report;
+        const std::string all = ir::print(with_rows(reward, objects, report));
+        const std::size_t begin = all.find("\nreward = ") + 1;
+        return all.substr(begin, all.find('\n', begin) - begin);
+    };
+    EXPECT_EQ(line_of("shut(?o) * GAIN(?o)", 8), "reward = reward-sums[bits(state.shut, 0)]");
+    EXPECT_EQ(line_of("-(GAIN(?o) * ~shut(?o))", 5),
+              "reward = reward-sums[bit_xor(bits(state.shut, 0), 31)]");
+}
+
 // Terms that more than bools decide, bools that are no ints, and many terms.
 TEST(TabulateSums, LeavesOtherSums) {
     EXPECT_EQ(reward_of(robbed + " * GAIN(?o) * rank(?o)"),
               row +
                   "    = sum[o in obj](real(scratch.reward-row[o]) * GAIN[o] * "
                   "real(state.rank[o]))\n");
-    for (const auto& [reward, objects] : {std::pair{std::string("shut(?o) * GAIN(?o)"), 4},
+    for (const auto& [reward, objects] : {std::pair{std::string("shut(?o) * GAIN(?o)"), 9},
+                                          std::pair{std::string("shut(?o) * GAIN(?o)"), 3},
                                           std::pair{robbed + " * GAIN(?o)", 20}}) {
         passes::Report report;
         const ir::Program program = with_rows(reward, objects, report);

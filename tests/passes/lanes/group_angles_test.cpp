@@ -57,5 +57,30 @@ TEST(GroupAngles, LeavesTooFewAngles) {
     }
 }
 
+// The engine asks for conditions after the step, so each has a table of its own.
+TEST(GroupAngles, FillsATableOfACondition) {
+    const auto text_with = [](const std::string& block) {
+        passes::Report report;
+        const ir::Program program = valid(passes::group_angles(
+            grounded({.pvariables = "x : { state-fluent, real, default = 0.5 };\n"
+                                    "y : { state-fluent, real, default = 0.0 };",
+                      .cpfs = "x' = x; y' = y;",
+                      .blocks = block}),
+            report));
+        EXPECT_EQ(ir::print(passes::group_angles(program, report)), ir::print(program));
+        return ir::print(program);
+    };
+    EXPECT_NE(text_with("termination { cos[x] + cos[x + y] > 1.0; };")
+                  .find("termination 0\n"
+                        "    fill scratch.angles = together(cos(state.x), cos(state.x + state.y))\n"
+                        "    = scratch.angles[0] + scratch.angles[1] > 1.0\n"),
+              std::string::npos);
+    EXPECT_NE(text_with("state-invariants { sin[x] <= cos[y]; };")
+                  .find("together(sin(state.x), cos(state.y))"),
+              std::string::npos);
+    for (const std::string one : {"cos[x] + sin[x] > 1.0", "cos[x] > 0.5 | cos[y] > 0.5"})
+        EXPECT_EQ(text_with("termination { " + one + "; };").find("together"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace rddlc
