@@ -1,4 +1,4 @@
-// The weights of a draw over eight objects lie in a row for each draw, so that one environment has
+// The weights of a draw over 8 objects lie in a row for each draw, so that one environment has
 // them in the lanes of a register (evaluate_together.hpp):
 //
 //     for c in area
