@@ -50,8 +50,10 @@ requires(n <= static_cast<std::size_t>(simd::lanes))  //
     const Reals limit = uniform_in_all_lanes(context, place) * total;
     const Reals rounding = total * detail::rounding_of_shares<double>(n);
     const auto chosen = simd::less_equal(sums, limit - rounding);
-    const auto at_most_chosen = simd::less_equal(sums, limit + rounding);
-    if (chosen == at_most_chosen && total[0] > detail::least_total<double>) [[likely]]
+    const auto above = simd::less(limit + rounding, sums);
+    // Each sum is on one side; with an infinite total or a nan, on none.
+    constexpr auto all = simd::MaskBits{(1 << simd::lanes) - 1};
+    if ((chosen | above) == all && total[0] > detail::least_total<double>) [[likely]]
         return std::popcount(chosen);
     return detail::discrete_of_quotients(context, place, weights);
 }

@@ -77,6 +77,20 @@ TEST(WeightRows, FaultLikeTheQuotients) {
     }
 }
 
+// Zero times an infinite total is no number.
+TEST(WeightRows, FaultWhereTheNumberIsZero) {
+    const PlaceOfNumber zero{{3, 0}, 0};
+    Context<Scalar> context{stream_key(5, 0, 0), 1, {}};
+    const std::array<double, 3> weights{1.0, std::numeric_limits<double>::infinity(), 2.0};
+    EXPECT_EQ(sample::discrete_of_row(context, zero, weights), 0);
+    EXPECT_EQ(context.fault.kind, FaultKind::Weight);
+
+    Context<ScalarOf<float>> floats{stream_key(5, 0, 0), 1, {}};
+    const std::array<float, 2> others{1.0f, std::numeric_limits<float>::infinity()};
+    EXPECT_EQ(sample::discrete_of_row(floats, zero, others), 0);
+    EXPECT_EQ(floats.fault.kind, FaultKind::Weight);
+}
+
 // Packs draw what each environment would.
 TEST(WeightRows, PacksDrawTheSame) {
     using L = Pack<16>;

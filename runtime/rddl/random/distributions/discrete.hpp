@@ -148,12 +148,14 @@ RDDL_INLINE typename L::Int discrete_of_row(Context<L>& context, SomePlace place
     const Real rounding = total * Real{detail::rounding_of_shares<Number>(n)};
     const Real limit = uniform_at(context, place) * total;
     const Real low = limit - rounding, high = limit + rounding;
-    Int chosen{0}, at_most_chosen{0};
+    Int chosen{0}, above{0};
     for (const Real& sum : sums) {
         chosen = wrap_add(chosen, to_int(sum <= low));
-        at_most_chosen = wrap_add(at_most_chosen, to_int(sum <= high));
+        above = wrap_add(above, to_int(high < sum));
     }
-    const auto is_certain = chosen == at_most_chosen && total > Real{detail::least_total<Number>};
+    // Each sum is on one side; with an infinite total or a nan, on none.
+    const auto is_certain =
+        wrap_add(chosen, above) == Int{n} && total > Real{detail::least_total<Number>};
     if (detail::holds_where_used(context, is_certain)) [[likely]]
         return select(is_certain, chosen, Int{0});
     return detail::discrete_of_quotients(context, place, weights);
