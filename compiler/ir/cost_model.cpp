@@ -1,6 +1,7 @@
 #include "ir/cost_model.hpp"
 
 #include "ir/analysis.hpp"
+#include "ir/shares.hpp"
 #include "support/match.hpp"
 
 #include <algorithm>
@@ -334,6 +335,8 @@ double own_cost(const Program& program, const Node& node) {
 }
 
 double repetitions(const Program& program, const Node& binder) {
+    const auto shares = shares_of_elements(program, binder);
+    if (shares && shares->is_row()) return 1;  // in the lanes of a register
     const double size = size_of(program, *bound_variable(binder));
     const auto* reduce = std::get_if<Reduce>(&binder.form);
     const bool is_row = reduce && reduce->bounds;

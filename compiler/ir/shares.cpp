@@ -21,6 +21,17 @@ bool add_weight(const Program& program, std::span<const Properties> properties, 
     return true;
 }
 
+// The only axis in which two loads of a table have different indices.
+std::optional<std::size_t> only_difference(const Load& a, const Load& b) {
+    std::optional<std::size_t> axis;
+    for (std::size_t k = 0; k < a.indices.size(); ++k) {
+        if (a.indices[k] == b.indices[k]) continue;
+        if (axis) return std::nullopt;
+        axis = k;
+    }
+    return axis;
+}
+
 }  // namespace
 
 std::optional<Shares> shares_of(const Program& program, std::span<const Properties> properties,
@@ -40,6 +51,33 @@ std::optional<Shares> shares_of(const Program& program, std::span<const Properti
             return std::nullopt;
     }
     return Shares{std::move(weights), *total};
+}
+
+std::optional<SharesOfElements> shares_of_elements(const Program& program, const Node& draw) {
+    const auto* const over = std::get_if<DiscreteOver>(&draw.form);
+    if (!over || over->normalise || program[over->variable].size > most_weights)
+        return std::nullopt;
+    const auto* const share = std::get_if<Apply>(&program[over->weight].form);
+    if (!share || share->op != Operator::Divide) return std::nullopt;
+    const NodeId total = share->operands.back();
+    const auto* const weight = std::get_if<Load>(&program[share->operands.front()].form);
+    const auto* const sum = std::get_if<Reduce>(&program[total].form);
+    if (!weight || !sum || sum->op != Reduction::Sum || sum->bounds ||
+        program[sum->variable].size != program[over->variable].size)
+        return std::nullopt;
+    const auto* const term = std::get_if<Load>(&program[sum->body].form);
+    const auto& range = program[weight->buffer].range;
+    if (!term || term->buffer != weight->buffer || !range || range->lower < 0) return std::nullopt;
+    const auto axis = only_difference(*weight, *term);
+    const auto is_index = [&](NodeId id, VariableId variable) {
+        const auto* const index = std::get_if<Index>(&program[id].form);
+        return index && index->variable == variable;
+    };
+    if (!axis || program[weight->buffer].shape[*axis] != program[over->variable].size ||
+        !is_index(weight->indices[*axis], over->variable) ||
+        !is_index(term->indices[*axis], sum->variable))
+        return std::nullopt;
+    return SharesOfElements{*weight, *axis, program[over->variable].size, total};
 }
 
 }  // namespace rddlc::ir

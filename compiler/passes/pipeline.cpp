@@ -55,6 +55,7 @@
 #include "passes/lanes/unroll_rows.hpp"
 #include "passes/lanes/visit_affected.hpp"
 #include "passes/lanes/visit_chosen.hpp"
+#include "passes/lanes/weigh_in_rows.hpp"
 #include "passes/sharing/pair_angles.hpp"
 #include "passes/sharing/remove_unused_buffers.hpp"
 #include "passes/sharing/share_across_definitions.hpp"
@@ -339,6 +340,12 @@ constexpr Pass in_order[] = {
      "sums that count bools leave them to tables, whose bits are counted",
      {"count_bits", "share_across_definitions"},
      "the other sums of bools count bits already"},
+    {"weigh_in_rows",
+     Phase::Lanes,
+     weigh_in_rows,
+     "the weights of a draw over few objects lie in a row, which one register has",
+     {"tabulate_counts", "share_across_definitions"},
+     "draws over objects have tables of weights, with elements that counts choose"},
     {"read_places",
      Phase::Lanes,
      read_places,

@@ -12,6 +12,7 @@
 #include <rddl/object_lanes/objects.hpp>
 #include <rddl/object_lanes/rows.hpp>
 #include <rddl/object_lanes/step_numbers.hpp>
+#include <rddl/object_lanes/weight_rows.hpp>
 #include <rddl/random/distributions.hpp>
 #include <rddl/simulator.h>
 #include <rddl/step/compiled.hpp>

@@ -364,6 +364,16 @@ std::optional<Expression> Expressions::sum_where_true(const ir::Node& binder) {
                       tree::list(bools_of(*sum), elements(record(terms->buffer), row)));
 }
 
+// "rddl::sample::discrete_of_row(context, {0, p}, scratch.weights[p])"
+std::optional<Expression> Expressions::draw_of_row(const ir::Node& binder) {
+    const auto shares = ir::shares_of_elements(unit_.program, binder);
+    if (!shares || !shares->is_row() || several_) return std::nullopt;
+    tree::Expressions arguments = place_of_draw(std::get<ir::DiscreteOver>(binder.form).place);
+    arguments.push_back(elements(record(shares->weight.buffer),
+                                 std::span(shares->weight.indices).first(shares->axis)));
+    return tree::call("rddl::sample::discrete_of_row", std::move(arguments));
+}
+
 ir::NodeId Expressions::bound_value(const ir::Node& binder) const {
     if (!over_true(binder)) return ir::operands_of(binder).front();
     return term_over_true(binder).then_value;

@@ -62,6 +62,7 @@ class Expressions {
     tree::Expression lower_binder(const ir::Node& binder, Body&& body) {
         if (auto count = count_of_true(binder)) return *std::move(count);
         if (auto sum = sum_where_true(binder)) return *std::move(sum);
+        if (auto draw = draw_of_row(binder)) return *std::move(draw);
         const auto shares = shares_of(binder);
         tree::Expressions arguments = binder_arguments(binder);
         if (shares) arguments.push_back(lower(shares->total));
@@ -157,6 +158,7 @@ class Expressions {
     // The choice between what is added where an element is true, and zero.
     const ir::Select& term_over_true(const ir::Node& binder) const;
     std::optional<tree::Expression> sum_where_true(const ir::Node& binder);
+    std::optional<tree::Expression> draw_of_row(const ir::Node& binder);
     std::optional<tree::Expression> count_of_true(const ir::Node& binder);
     // The term of an aggregation, or the weight of a draw.
     ir::NodeId bound_value(const ir::Node& binder) const;

@@ -2,6 +2,7 @@
 
 #include "ir/analysis.hpp"
 #include "ir/nest.hpp"
+#include "ir/shares.hpp"
 #include "passes/analyses/bool_words.hpp"
 #include "passes/analyses/object_lanes.hpp"
 #include "support/match.hpp"
@@ -34,6 +35,10 @@ class Marking {
   public:
     explicit Marking(const ir::Program& program)
         : program_(program), properties_(ir::all_properties(program)) {
+        for (const ir::Node& node : program.nodes) {
+            const auto shares = ir::shares_of_elements(program, node);
+            if (shares && shares->is_row()) rows_of_weights_.insert(shares->weight.buffer);
+        }
         for (const ir::Definition& definition : program.step) {
             const auto* loop = ir::only_statement<ir::Loop>(definition.body);
             const ir::Buffer& target = program[definition.target];
@@ -72,8 +77,8 @@ class Marking {
             const ir::Scalar scalar = program_[store->target].scalar;
             if (scalar == ir::Scalar::Int && !is_worth_it(store->value)) return false;
             cost += cost_of(store->value);
-            draws_or_is_bool &=
-                scalar == ir::Scalar::Bool || properties_[store->value.index].random;
+            draws_or_is_bool &= scalar == ir::Scalar::Bool ||
+                                properties_[store->value.index].random || are_weights(*store);
         }
         return draws_or_is_bool || cost >= least_cost_of_reals;
     }
@@ -112,12 +117,19 @@ class Marking {
             return match(
                 statement.form, [&](const ir::Let& let) { return several.can_evaluate(let.value); },
                 [&](const ir::Store& store) {
-                    return (several.are_enough(program_[store.target].scalar) ||
-                            are_expensive(nest, store)) &&
+                    return (are_weights(store)
+                                ? nest.variables.size() == 1
+                                : several.are_enough(program_[store.target].scalar) ||
+                                      are_expensive(nest, store)) &&
                            several.can_store_in_row(store);
                 },
                 [](const auto&) { return false; });
         });
+    }
+
+    // A draw takes a row of them as a register, whatever they cost.
+    bool are_weights(const ir::Store& store) const {
+        return rows_of_weights_.contains(store.target);
     }
 
     bool are_expensive(const ir::Nest& nest, const ir::Store& store) const {
@@ -185,6 +197,7 @@ class Marking {
     const ir::Program& program_;
     std::vector<ir::Properties> properties_;
     std::set<std::string> stored_one_by_one_;  // tables of the next state
+    std::set<ir::BufferId> rows_of_weights_;
 };
 
 }  // namespace

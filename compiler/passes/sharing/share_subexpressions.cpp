@@ -3,6 +3,7 @@
 #include "ir/call.hpp"
 #include "ir/cost_model.hpp"
 #include "ir/rewrite.hpp"
+#include "ir/shares.hpp"
 #include "support/match.hpp"
 
 #include <algorithm>
@@ -188,15 +189,28 @@ class Sharing {
     std::vector<ir::NodeId> choose(const Uses& uses, const std::set<ir::BufferId>& stored) const {
         const std::set<ir::NodeId> fixed = fixed_nodes(uses, stored);
         const std::set<ir::NodeId> exposed = exposed_nodes(uses, fixed);
+        const std::set<ir::NodeId> totals = totals_of_rows(uses);
         std::vector<ir::NodeId> chosen;
         for (const ir::NodeId id : fixed) {
             const Use& use = uses.at(id);
-            if (is_plain_index(id) || builder_.properties(id).cost < worth_a_name) continue;
+            if (is_plain_index(id) || totals.contains(id) ||
+                builder_.properties(id).cost < worth_a_name)
+                continue;
             const bool hoisted = use.repeated && exposed.contains(id);
             if (use.always ? use.count > 1 || hoisted : hoisted && may_be_in_vain(id, use))
                 chosen.push_back(id);
         }
         return chosen;
+    }
+
+    // Draws from the weights of a row add them themselves.
+    std::set<ir::NodeId> totals_of_rows(const Uses& uses) const {
+        std::set<ir::NodeId> totals;
+        for (const auto& [id, use] : uses) {
+            const auto shares = ir::shares_of_elements(program_, program_[id]);
+            if (shares && shares->is_row()) totals.insert(shares->total);
+        }
+        return totals;
     }
 
     // Neither the loops nor the stores of the statement change the node's value.

@@ -15,11 +15,21 @@ namespace rddl {
 namespace detail {
 
 inline bool are_objects(const std::byte* values, std::int64_t count, std::int64_t object_count) {
+    using simd::Words;
+    const auto limit = static_cast<std::uint64_t>(object_count);
+    decltype(Words{} >= std::uint64_t{}) others{};
+    std::int64_t k = 0;
+    for (; k + simd::lanes_of<std::uint64_t> <= count; k += simd::lanes_of<std::uint64_t>) {
+        Words some;
+        std::memcpy(&some, values + 8 * k, sizeof some);
+        others |= some >= limit;
+    }
     bool all = true;
-    for (std::int64_t k = 0; k < count; ++k) {
+    for (int i = 0; i < simd::lanes_of<std::uint64_t>; ++i) all &= others[i] == 0;
+    for (; k < count; ++k) {
         std::uint64_t value;
         std::memcpy(&value, values + 8 * k, sizeof value);
-        all &= value < static_cast<std::uint64_t>(object_count);
+        all &= value < limit;
     }
     return all;
 }
@@ -54,6 +64,10 @@ inline bool are_plain(const Columns& columns) {
 inline bool records_are_valid(const Columns& columns, const std::byte* records,
                               std::int64_t record_count) {
     if (!columns.has_objects) return true;
+    // Rows of nothing else lie one behind the other.
+    const Column& first = columns.list.front();
+    if (columns.list.size() == 1 && 8 * first.count == columns.row_size)
+        return detail::are_objects(records, first.count * record_count, first.limit);
     const std::byte* const end = records + record_count * columns.row_size;
     for (const Column& column : columns.list)
         for (const std::byte* row = records; column.limit > 0 && row != end;

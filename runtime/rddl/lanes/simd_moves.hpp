@@ -70,6 +70,25 @@ template <class T>
 #endif
 }
 
+#ifdef RDDL_SIMD_AVX512
+
+// One of the lanes in all of them.
+[[gnu::always_inline]] inline Reals in_all_lanes(Reals values, int lane) {
+    return _mm512_maskz_permutexvar_pd(0xFF, _mm512_set1_epi64(lane), values);
+}
+// The sum of each lane and of all lanes before it, in three additions.
+[[gnu::always_inline]] inline Reals running_sums(Reals values) {
+    const auto moved = [](Reals sums, auto by) __attribute__((always_inline)) {
+        return (Reals)_mm512_maskz_alignr_epi64(0xFF, (__m512i)sums, __m512i{}, lanes - by());
+    };
+    values += moved(values, std::integral_constant<int, 1>{});
+    values += moved(values, std::integral_constant<int, 2>{});
+    values += moved(values, std::integral_constant<int, 4>{});
+    return values;
+}
+
+#endif
+
 // -------------------------------------------------------------------------------- gathering
 
 [[gnu::always_inline]] inline Reals gather(const double* from, Ints indices) {

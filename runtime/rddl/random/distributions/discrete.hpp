@@ -63,8 +63,9 @@ typename L::Int discrete_over(Context<L>& context, SomePlace place, Index n, Wei
         total = total + w;
         chosen = select(chosen == n && u < total, Int{i}, chosen);
     }
-    const auto sums_to_one = context.require(absolute(total - Real{1}) <= Real{1.001e-5},
-                                             FaultKind::ProbabilitySum, place, total);
+    const auto sums_to_one = context.require(
+        absolute(total - Real{1}) <= Real{static_cast<typename L::Element>(1.001e-5)},
+        FaultKind::ProbabilitySum, place, total);
     return select(valid && sums_to_one && chosen < n, chosen, Int{0});
 }
 
@@ -80,6 +81,17 @@ RDDL_INLINE bool holds_where_used(const Context<L>& context, const Mask<n>& cond
     return all(condition || !context.active);
 }
 
+// The part of a total by which sums of its n shares may differ, and U times the total: more than
+// 4 n + 4 roundings, of which each is at most epsilon / 2.
+template <class Number>
+constexpr Number rounding_of_shares(Index n) {
+    return static_cast<Number>(2 * n + 8) * std::numeric_limits<Number>::epsilon();
+}
+// Less than this rounds by more.
+template <class Number>
+inline constexpr Number least_total =
+    std::numeric_limits<Number>::min() / std::numeric_limits<Number>::epsilon();
+
 }  // namespace detail
 
 // discrete_over() with the probabilities weight(i) / total, where no weight is negative. Sums of
@@ -91,9 +103,7 @@ RDDL_INLINE typename L::Int discrete_of_shares_over(Context<L>& context, SomePla
     using Int = typename L::Int;
     using Real = typename L::Real;
     using Number = typename L::Element;
-    using Limits = std::numeric_limits<Number>;
-    // More than 2 n + 4 roundings, of which each is at most epsilon / 2.
-    const Real rounding = total * Real{static_cast<Number>(2 * n + 8) * Limits::epsilon()};
+    const Real rounding = total * Real{detail::rounding_of_shares<Number>(n)};
     const Real limit = uniform_at(context, place) * total;
     const Real low = limit - rounding, high = limit + rounding;
     Real sum{0};
@@ -105,15 +115,55 @@ RDDL_INLINE typename L::Int discrete_of_shares_over(Context<L>& context, SomePla
     }
     const auto is_certain = chosen == at_most_chosen && chosen < Int{n} &&
                             absolute(sum - total) < total * Real{1e-6} &&
-                            total > Real{Limits::min() / Limits::epsilon()};
+                            total > Real{detail::least_total<Number>};
     if (detail::holds_where_used(context, is_certain)) [[likely]]
         return select(is_certain, chosen, Int{0});
     return discrete_over(context, place, n, [&](Index i) { return weight(i) / total; });
 }
 
-// The same with weights of any positive, finite sum. They are evaluated twice; the second time,
-// the last index of positive weight with no more than U * sum before it is chosen. Of the weights,
-// the first nan, or else the least, is what a fault names.
+namespace detail {
+
+// The probabilities are added after all.
+template <class L, std::size_t n, class SomePlace>
+[[gnu::noinline, gnu::cold]] typename L::Int discrete_of_quotients(
+    Context<L>& context, SomePlace place, const std::array<typename L::Real, n>& weights) {
+    typename L::Real total{0};
+    for (const auto& weight : weights) total = total + weight;
+    return discrete_over(context, place, n, [&](Index i) { return weights[i] / total; });
+}
+
+}  // namespace detail
+
+// discrete_of_shares_over() where the total is the sum of the weights, which lie in a row.
+template <class L, std::size_t n, class SomePlace = Place>
+RDDL_INLINE typename L::Int discrete_of_row(Context<L>& context, SomePlace place,
+                                            const std::array<typename L::Real, n>& weights) {
+    using Int = typename L::Int;
+    using Real = typename L::Real;
+    using Number = typename L::Element;
+    std::array<Real, n> sums;
+    sums[0] = weights[0];
+    for (std::size_t i = 1; i < n; ++i) sums[i] = sums[i - 1] + weights[i];
+    const Real total = sums[n - 1];
+    const Real rounding = total * Real{detail::rounding_of_shares<Number>(n)};
+    const Real limit = uniform_at(context, place) * total;
+    const Real low = limit - rounding, high = limit + rounding;
+    Int chosen{0}, above{0};
+    for (const Real& sum : sums) {
+        chosen = wrap_add(chosen, to_int(sum <= low));
+        above = wrap_add(above, to_int(high < sum));
+    }
+    // Each sum is on one side; with an infinite total or a nan, on none.
+    const auto is_certain =
+        wrap_add(chosen, above) == Int{n} && total > Real{detail::least_total<Number>};
+    if (detail::holds_where_used(context, is_certain)) [[likely]]
+        return select(is_certain, chosen, Int{0});
+    return detail::discrete_of_quotients(context, place, weights);
+}
+
+// discrete_over() with weights of any positive, finite sum. They are evaluated twice; the second
+// time, the last index of positive weight with no more than U * sum before it is chosen. Of the
+// weights, the first nan, or else the least, is what a fault names.
 template <class L, class Weight, class SomePlace = Place>
 typename L::Int unnormalised_discrete_over(Context<L>& context, SomePlace place, Index n,
                                            Weight&& weight) {

@@ -1,0 +1,53 @@
+#include <rddl/batch/record_checks.hpp>
+
+#include <gtest/gtest.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace rddl {
+namespace {
+
+bool are_valid(const Columns& columns, const std::vector<std::int64_t>& rows) {
+    const auto bytes = std::as_bytes(std::span(rows));
+    return records_are_valid(columns, bytes.data(),
+                             static_cast<std::int64_t>(bytes.size()) / columns.row_size);
+}
+
+// Each place of a run of rows is looked at, in registers or behind the last full one.
+void expect_all_are_checked(const Columns& columns, std::size_t rows) {
+    const Column& column = columns.list.back();
+    const auto words = static_cast<std::size_t>(columns.row_size / 8);
+    std::vector<std::int64_t> values(rows * words, 0);
+    for (std::size_t row = 0; row < rows; ++row)
+        for (std::size_t k = 0; k < static_cast<std::size_t>(column.count); ++k) {
+            std::int64_t& value =
+                values[row * words + static_cast<std::size_t>(column.row / 8) + k];
+            for (const std::int64_t other :
+                 {std::int64_t{-1}, column.limit, INT64_MIN, INT64_MAX}) {
+                value = other;
+                EXPECT_FALSE(are_valid(columns, values)) << row << " " << k << " " << other;
+            }
+            value = column.limit - 1;
+            EXPECT_TRUE(are_valid(columns, values)) << row << " " << k;
+        }
+}
+
+TEST(RecordChecks, FindEachValueThatIsNoObject) {
+    const Column objects{.scalar = RDDL_INT, .limit = 5, .count = 3};
+    const Columns alone{.list = {objects}, .row_size = 24, .has_objects = true};
+    for (const std::size_t rows : {1, 2, 3, 11}) expect_all_are_checked(alone, rows);
+}
+
+TEST(RecordChecks, LeaveNumbersBesideObjects) {
+    const Column numbers{.scalar = RDDL_INT, .count = 1};
+    const Column objects{.scalar = RDDL_INT, .limit = 5, .count = 2, .first = 1, .row = 8};
+    const Columns both{.list = {numbers, objects}, .row_size = 24, .has_objects = true};
+    EXPECT_TRUE(are_valid(both, {77, 4, 4, -8, 0, 0}));
+    for (const std::size_t rows : {1, 5}) expect_all_are_checked(both, rows);
+}
+
+}  // namespace
+}  // namespace rddl
