@@ -47,7 +47,7 @@ std::string without_double_blanks(const std::string& text) {
 }
 
 std::string engine(const Unit& unit) {
-    const std::string start = "rddl::Compiled<" + cpp::stepping_type(unit) + ", about::problem";
+    const std::string start = "rddl::Compiled<" + cpp::type_for_one(unit) + ", about::problem";
     if (unit.program.policy) return start + ", rddl::Scalar, Policy>";
     if (unit.program.real == RealType::Float) return start + ", rddl::ScalarOf<float>>";
     return start + ">";

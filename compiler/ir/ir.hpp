@@ -445,6 +445,9 @@ struct Program {
     bool assumes_finite = false;
     // Right only for steps from moderate states and actions (rddl/values/moderate.hpp).
     bool only_moderate = false;
+    // One environment takes the other program, whose loops over several objects at once do more for
+    // it than such a program, which leaves out terms.
+    bool only_in_packs = false;
     // Makes such steps in place of this program, with less work. It has the same sites.
     std::optional<Box<Program>> moderate = {};
     std::vector<ObjectType> types;

@@ -155,6 +155,7 @@ ir::Program optimise(ir::Program program, const PassOptions& options, std::vecto
         std::vector<PassRun> made_of_moderate;
         ir::Program other = run_passes(std::move(**moderate), options, made_of_moderate);
         if (terms_left_out(made_of_moderate) > terms_left_out(made)) {
+            other.only_in_packs = ir::cost_of_step(other) > ir::cost_of_step(program);
             program.moderate = step_alone(std::move(other));
             made = std::move(made_of_moderate);
         }

@@ -19,6 +19,7 @@
 #include "passes/aggregations/order_objects.hpp"
 #include "passes/aggregations/search_intervals.hpp"
 #include "passes/aggregations/set_bits.hpp"
+#include "passes/aggregations/skip_added_zeros.hpp"
 #include "passes/aggregations/skip_zero_terms.hpp"
 #include "passes/aggregations/tabulate_counts.hpp"
 #include "passes/aggregations/tabulate_draws.hpp"
@@ -291,6 +292,12 @@ constexpr Pass in_order[] = {
      {"make_aggregations_sparse", "tabulate_constants"},
      "the terms that are still expensive are known",
      leaves_out_zeros},
+    {"skip_added_zeros",
+     Phase::Aggregations,
+     skip_added_zeros,
+     "additions compute only the expensive terms that constants let count",
+     {"tabulate_constants"},
+     "it has made tables of the bools that only constants decide"},
     {"keep_bools",
      Phase::Aggregations,
      keep_bools,

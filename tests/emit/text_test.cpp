@@ -103,6 +103,28 @@ TEST(EmittedText, LaysOutTheStepForModerateValues) {
         << "the simulator's own table serves";
 }
 
+// One environment has the rooms in registers, where each has the terms of all.
+TEST(EmittedText, LeavesSparseRowsToPacksWhereObjectsShareRegisters) {
+    const std::string rooms =
+        "domain d { types { o : object; }; pvariables {\n"
+        "L(o, o) : { non-fluent, real, default = 0.0 };\n"
+        "heat(o) : { state-fluent, real, default = 0.0 };\n"
+        "a(o) : { action-fluent, real, default = 0.0 };\n"
+        "}; cpfs {\n"
+        "heat'(?o) = heat(?o) + a(?o) + Normal(0.0, 1.0)\n"
+        "          + (sum_{?p : o} [L(?o, ?p) * (heat(?p) - heat(?o)) / 1.5]);\n"
+        "}; reward = sum_{?o : o} [heat(?o)]; }\n"
+        "non-fluents n { domain = d; objects { o : {o0, o1, o2, o3, o4, o5}; }; non-fluents {\n"
+        "L(o0, o1) = 0.5; L(o0, o3) = 0.5; L(o1, o0) = 0.5; L(o1, o2) = 0.5; L(o1, o4) = 0.5;\n"
+        "L(o2, o1) = 0.5; L(o2, o5) = 0.5; L(o3, o0) = 0.5; L(o3, o4) = 0.5; L(o4, o1) = 0.5;\n"
+        "L(o4, o3) = 0.5; L(o4, o5) = 0.5; L(o5, o2) = 0.5; L(o5, o4) = 0.5; }; }\n"
+        "instance i { domain = d; non-fluents = n; horizon = 5; discount = 1.0; }\n";
+    const std::string text = emitted(rooms);
+    EXPECT_EQ(count(text, "using Engine = rddl::Compiled<Simulator, about::problem>;"), 1u) << text;
+    EXPECT_EQ(count(text, "using Packed = rddl::Packed<FastSimulator, about::problem, 16>;"), 1u);
+    EXPECT_EQ(count(emitted(rooms, {.lane_count = 1}), "FastSimulator"), 0u);
+}
+
 // clang and g++ compute constants with so many steps and no more.
 TEST(EmittedText, LeavesLargeRecordsToTheStartOfThePrograms) {
     const auto with_actions = [](int count) {

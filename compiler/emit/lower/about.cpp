@@ -7,7 +7,6 @@
 #include "emit/lower/functions.hpp"
 #include "emit/lower/moderate.hpp"
 #include "emit/lower/tables.hpp"
-#include "ir/lane_count.hpp"
 
 #include <fmt/format.h>
 
@@ -413,14 +412,6 @@ std::string about(const Unit& unit, const DetailsUnit* details) {
     return Describer(unit, details).describe();
 }
 
-namespace {
-
-bool has_packs(const Unit& unit) {
-    return unit.options.lane_count > 1 && ir::why_without_packs(unit.program).empty();
-}
-
-}  // namespace
-
 std::string table_definition(const Unit& unit, bool has_details) {
     const bool has_constants =
         std::ranges::count(unit.program.fluents, Role::NonFluent, &ir::Fluent::role) > 0;
@@ -431,14 +422,15 @@ std::string table_definition(const Unit& unit, bool has_details) {
         parts.push_back(word(unit.program.policy ? "&about::policy" : "nullptr"));
     if (has_details) parts.push_back(word("&about::step_details"));
     tree::Block definitions;
-    if (has_packs(unit)) {
+    if (unit.has_packs()) {
         const std::string real = unit.program.real == RealType::Float ? ", float" : "";
-        definitions.push_back(tree::assign(
-            "using Packed", word(fmt::format("rddl::Packed<{}, about::problem, {}{}>",
-                                             stepping_type(unit), unit.options.lane_count, real))));
+        const std::string packed =
+            fmt::format("rddl::Packed<{}, about::problem, {}{}>", type_for_packs(unit),
+                        unit.options.lane_count, real);
+        definitions.push_back(tree::assign("using Packed", word(packed)));
     }
     definitions.push_back({braces("constexpr rddl::About description", std::move(parts))});
-    const std::string engines = has_packs(unit) ? "Engine, Packed" : "Engine";
+    const std::string engines = unit.has_packs() ? "Engine, Packed" : "Engine";
     definitions.push_back({call("static const rddl::SimulatorTable<" + engines + "> table",
                                 {word("description"), call("Engine", {})})});
     return tree::print(definitions, 1);

@@ -163,11 +163,11 @@ Expression Expressions::lower(const ir::Node& node, const ir::Convert& convert) 
     return call(rounding_function(rounded.op), rounded.operands);
 }
 
-Expression Expressions::lower(const ir::Node&, const ir::Apply& apply) {
+Expression Expressions::lower(const ir::Node& node, const ir::Apply& apply) {
     const bool on_ints = unit_.program[apply.operands.front()].type == ir::Scalar::Int;
     const auto spelling = spelling_of(apply.op, on_ints);
     if (const auto* function = std::get_if<std::string>(&spelling))
-        return call(*function, apply.operands, apply.place);
+        return call(*function, apply.place ? apply.operands : unit_.operands_of(node), apply.place);
     tree::Expressions operands = all_of(apply.operands);
     if (apply.op == Operator::Implies)
         operands[0] = operation(plain_operator(Operator::Not), list(std::move(operands[0])));

@@ -7,8 +7,17 @@
 
 namespace rddlc::cpp {
 
+namespace {
+
+bool steps_moderately(const Unit& unit) {
+    const auto& moderate = unit.program.moderate;
+    return moderate && (unit.has_packs() || !(*moderate)->only_in_packs);
+}
+
+}  // namespace
+
 std::string moderate_section(const Unit& around) {
-    if (!around.program.moderate) return "";
+    if (!steps_moderately(around)) return "";
     Unit unit(**around.program.moderate, around.sources, around.options);
     unit.names.space = "moderate";
     const StepFunctions step = step_functions(unit);
@@ -23,8 +32,13 @@ std::string moderate_section(const Unit& around) {
     return section("moderate values", text);
 }
 
-std::string stepping_type(const Unit& unit) {
-    return unit.program.moderate ? "FastSimulator" : "Simulator";
+std::string type_for_packs(const Unit& unit) {
+    return steps_moderately(unit) ? "FastSimulator" : "Simulator";
+}
+
+std::string type_for_one(const Unit& unit) {
+    const bool is_fast = steps_moderately(unit) && !(*unit.program.moderate)->only_in_packs;
+    return is_fast ? "FastSimulator" : "Simulator";
 }
 
 }  // namespace rddlc::cpp

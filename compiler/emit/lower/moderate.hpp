@@ -12,7 +12,8 @@ namespace rddlc::cpp {
 // program has no such step.
 std::string moderate_section(const Unit& around);
 
-// The C++ type that steps: the simulator, with that step if there is one.
-std::string stepping_type(const Unit& unit);
+// The C++ types that step packs and one environment: the simulator, with that step if they take it.
+std::string type_for_packs(const Unit& unit);
+std::string type_for_one(const Unit& unit);
 
 }  // namespace rddlc::cpp

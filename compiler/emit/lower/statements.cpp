@@ -612,7 +612,7 @@ std::vector<ir::NodeId> FunctionBody::chain_parts(ir::NodeId id) const {
 std::vector<ir::NodeId> FunctionBody::eager_parts(ir::NodeId id) const {
     if (expressions_.is_named(id) || is_binder(program()[id])) return {};
     if (const ir::Select* select = lazy_select(id)) return {select->condition};
-    return ir::operands_of(program()[id]);
+    return expressions_.unit().operands_of(program()[id]);
 }
 
 // Calls with lambdas inside of it first, since they take many lines, unless there are too many;

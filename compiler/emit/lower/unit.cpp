@@ -2,6 +2,7 @@
 
 #include "emit/cpp/literals.hpp"
 #include "ir/action_bools.hpp"
+#include "ir/lane_count.hpp"
 #include "support/match.hpp"
 
 #include <algorithm>
@@ -83,6 +84,23 @@ bool Unit::is_among_sites(const ir::Place& place) const {
     const std::uint32_t first = series / sites_of_register * sites_of_register;
     return std::distance(lone_series_.lower_bound(first),
                          lone_series_.lower_bound(first + sites_of_register)) > most_alone;
+}
+
+std::vector<ir::NodeId> Unit::operands_of(const ir::Node& node) const {
+    std::vector<ir::NodeId> operands = ir::operands_of(node);
+    const auto* apply = std::get_if<ir::Apply>(&node.form);
+    if (!apply || apply->op != Operator::Multiply || node.type != ir::Scalar::Int) return operands;
+    for (ir::NodeId& operand : operands) {
+        const auto factor = ir::converted_bool(program, operand);
+        if (!factor || properties_of(operand).uniform) continue;
+        operand = *factor;
+        break;
+    }
+    return operands;
+}
+
+bool Unit::has_packs() const {
+    return options.lane_count > 1 && ir::why_without_packs(program).empty();
 }
 
 std::string Unit::size_of(const ir::Variable& variable) const {

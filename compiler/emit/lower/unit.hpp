@@ -34,6 +34,9 @@ struct Unit {
     // entries of constant tables by operators alone. It may stand in array[i], and number a place.
     bool is_uniform(ir::NodeId id) const { return uniform_ints[id.index]; }
 
+    // As the text has them: a bool that is a factor of an int is not converted.
+    std::vector<ir::NodeId> operands_of(const ir::Node& node) const;
+
     // The number of objects that a loop runs over, by the name of its type where it is all of them.
     std::string size_of(const ir::Variable& variable) const;
     // A number of objects, by the name of the type where it is all of them.
@@ -43,6 +46,9 @@ struct Unit {
 
     // A draw that is made once in a step, not in a loop.
     bool is_lone(const ir::Place& place) const;
+    // Whether batches are stepped in packs.
+    bool has_packs() const;
+
     // Whether a step makes so many draws of neighbouring sites once that one environment makes
     // their numbers in a register.
     bool is_among_sites(const ir::Place& place) const;

@@ -3,6 +3,7 @@
 #include "ir/analysis.hpp"
 #include "ir/rewrite.hpp"
 #include "ir/row_of_bools.hpp"
+#include "passes/analyses/bool_factor.hpp"
 #include "passes/analyses/few_true.hpp"
 
 #include <algorithm>
@@ -17,39 +18,6 @@ namespace {
 constexpr double expensive = 20;
 // Operations that are worth computing before a loop.
 constexpr double worth_a_name = 4;
-
-// A product as a bool and what it is where the bool holds: nothing stands for 1.
-struct Choice {
-    ir::NodeId counts;
-    std::optional<ir::NodeId> value;
-};
-
-// The bool is a factor of the term, or of one of its factors, also of a product of ints.
-std::optional<Choice> choice_of(ir::Builder& builder, ir::NodeId term) {
-    const ir::Program& program = builder.program();
-    if (const auto counts = ir::converted_bool(program, term)) return Choice{*counts, std::nullopt};
-    const ir::Node node = program[term];
-    if (const auto* convert = std::get_if<ir::Convert>(&node.form)) {
-        if (program[convert->operand].type != ir::Scalar::Int) return std::nullopt;
-        auto choice = choice_of(builder, convert->operand);
-        if (choice && choice->value) choice->value = builder.convert(*choice->value, node.type);
-        return choice;
-    }
-    const auto* product = std::get_if<ir::Apply>(&node.form);
-    if (!product || product->op != Operator::Multiply) return std::nullopt;
-    const ir::NodeId a = product->operands.front(), b = product->operands.back();
-    if (const auto counts = ir::converted_bool(program, a)) return Choice{*counts, b};
-    if (const auto counts = ir::converted_bool(program, b)) return Choice{*counts, a};
-    for (const bool is_first : {true, false}) {
-        const auto choice = choice_of(builder, is_first ? a : b);
-        if (!choice) continue;
-        if (!choice->value) return Choice{choice->counts, is_first ? b : a};
-        return Choice{choice->counts,
-                      builder.apply(Operator::Multiply, {is_first ? *choice->value : a,
-                                                         is_first ? b : *choice->value})};
-    }
-    return std::nullopt;
-}
 
 // Also cheap ones if emitted code need not even look at them, or computes them before the sum.
 bool may_be_skipped(const ir::Properties& properties, bool is_by_row, bool is_invariant) {
@@ -69,7 +37,7 @@ bool is_mostly_false(const ir::Program& program, ir::NodeId id) {
 
 // The term as a choice between itself and zero.
 std::optional<ir::NodeId> chosen(ir::Builder& builder, const ir::Reduce& sum) {
-    const auto choice = choice_of(builder, sum.body);
+    const auto choice = without_bool_factor(builder, sum.body);
     if (!choice || !choice->value) return std::nullopt;
     const ir::Properties& properties = builder.properties(*choice->value);
     const bool is_by_row =

@@ -72,8 +72,9 @@ std::optional<Relation> SparsityPattern::of_term(ir::NodeId id, std::vector<ir::
     return match(
         program()[id].form,
         [&](const ir::Apply& form) {
-            if (form.op != Operator::Multiply) return Found();
             const ir::NodeId a = form.operands.front(), b = form.operands.back();
+            if (form.op == Operator::Divide && is_never_zero(b)) return of_term(a, doubtful);
+            if (form.op != Operator::Multiply) return Found();
             const Found found = of_doubtful_product(a, b, doubtful);
             return found ? found : of_doubtful_product(b, a, doubtful);
         },
@@ -256,8 +257,14 @@ std::optional<Relation> SparsityPattern::of(const ir::Apply& apply, const ir::Va
     if (is_one_of(op, {Operator::Minimum, Operator::Maximum})) return either(a, b, value);
     if (!is_zero(value)) return of_zero_beside(apply, value);
     if (op == Operator::Multiply) return of_product(a, b, value);
+    if (op == Operator::Divide) return is_never_zero(b) ? of(a, value) : std::nullopt;
     if (is_one_of(op, {Operator::Add, Operator::Subtract})) return either(a, b, value);
     return op == Operator::Negate ? of(a, value) : std::nullopt;
+}
+
+// A zero divided by such a number is a zero.
+bool SparsityPattern::is_never_zero(ir::NodeId divisor) const {
+    return excludes_zero(properties(divisor).range) && !properties(divisor).may_fault;
 }
 
 // `1.0 - x` differs from 1.0 only where x differs from a zero.

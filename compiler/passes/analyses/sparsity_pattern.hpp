@@ -57,6 +57,7 @@ class SparsityPattern {
     Found of_zero_beside(const ir::Apply& apply, const ir::Value& value);
     Found of_equality(ir::NodeId a, ir::NodeId b);
     Found of_product(ir::NodeId a, ir::NodeId b, const ir::Value& zero);
+    bool is_never_zero(ir::NodeId divisor) const;
 
     Found either(ir::NodeId a, ir::NodeId b, const ir::Value& value);
     Found both(ir::NodeId a, const ir::Value& value_of_a, ir::NodeId b,

@@ -335,6 +335,15 @@ requires SomePack<A, B> RDDL_INLINE auto wrap_mul(const A& a, const B& b) {
     using Int = Lanes<std::int64_t, detail::common_width<A, B>>;
     return ints_of(words_of(Int(a)) * words_of(Int(b)));
 }
+// A bool as a factor is a choice, which takes one instruction where a product takes three.
+template <int n, class B>
+RDDL_INLINE Lanes<std::int64_t, n> wrap_mul(Mask<n> is_one, const B& b) {
+    return select(is_one, b, std::int64_t{0});
+}
+template <int n, class A>
+RDDL_INLINE Lanes<std::int64_t, n> wrap_mul(const A& a, Mask<n> is_one) {
+    return select(is_one, a, std::int64_t{0});
+}
 template <int n>
 RDDL_INLINE Lanes<std::int64_t, n> wrap_neg(const Lanes<std::int64_t, n>& a) {
     return wrap_sub(std::int64_t{0}, a);

@@ -180,6 +180,14 @@ TEST(MakeAggregationsSparse, LeavesProductsWithWhatMayBeInfinite) {
               "0.0 + 2.5 * state.v[2] * state.v[2] * state.v[2]");
 }
 
+TEST(MakeAggregationsSparse, FindsZerosThatAreDivided) {
+    EXPECT_EQ(sparse("sum_{?o : obj} COST(?o) * v(?o) * v(?o) / 1.5"),
+              "0.0 + 2.5 * state.v[2] * state.v[2] / 1.5");
+    const std::string by_what_may_be_zero = "sum_{?o : obj} COST(?o) * v(?o) * v(?o) / v(?o)";
+    EXPECT_EQ(sparse(by_what_may_be_zero),
+              value_of_x(of_moderate_values(with_links(by_what_may_be_zero))));
+}
+
 TEST(MakeAggregationsSparse, TakesRealsAsFiniteWithFastMath) {
     passes::Report report;
     const Problem problem = with_links("sum_{?o : obj} COST(?o) * exp[v(?o)]");

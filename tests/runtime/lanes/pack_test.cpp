@@ -194,12 +194,18 @@ TEST(Packs, DrawNormalsOfNeighboursTogether) {
     expect_same.operator()<9>();
 }
 
+// A bool stands for 0 or 1, on both sides.
+auto product_if_first_is_less(const auto& a, const auto& b) {
+    return wrap_sub(wrap_mul(a < b, b), wrap_mul(a, b < a));
+}
+
 TEST(Packs, ComputeWithIntsAsScalarsDo) {
     const std::vector<std::int64_t> a = ints(5), b = ints(6);
     EXPECT_BITS_OF_SCALARS(wrap_add(x...), a, b);
     EXPECT_BITS_OF_SCALARS(wrap_sub(x...), a, b);
     EXPECT_BITS_OF_SCALARS(wrap_mul(x...), a, b);
     EXPECT_BITS_OF_SCALARS(wrap_neg(x...), a);
+    EXPECT_BITS_OF_SCALARS(product_if_first_is_less(x...), a, b);
     EXPECT_BITS_OF_SCALARS(minimum(x...), a, b);
     EXPECT_BITS_OF_SCALARS(maximum(x...), a, b);
     EXPECT_BITS_OF_SCALARS(absolute(x...), a);
