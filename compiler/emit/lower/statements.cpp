@@ -232,12 +232,13 @@ void FunctionBody::over_several_objects(const ir::Loop& loop, bool is_from_start
     expressions_.leave_nest();
     expressions_.return_to(before);
     if (loop.affected) {
-        const auto& [few, rows, affected] = *loop.affected;
-        statements_.push_back(
-            {tree::call("rddl::for_affected_objects<" + count + ">",
-                        tree::list(tree::word("context"), expressions_.record(few),
-                                   expressions_.record(rows), expressions_.record(affected),
-                                   expressions_.record(only_target(nest)), std::move(lambda)))});
+        const auto& [few, rows, affected, moves] = *loop.affected;
+        tree::Expression all =
+            tree::call("rddl::for_affected_objects<" + count + ">",
+                       tree::list(tree::word("context"), expressions_.record(few),
+                                  expressions_.record(rows), expressions_.record(affected),
+                                  expressions_.record(only_target(nest)), std::move(lambda)));
+        statements_.push_back({moves ? or_move(loop, std::move(all)) : std::move(all)});
     } else if (loop.chosen) {
         statements_.push_back(
             {tree::call("rddl::for_chosen_objects<" + count + ">",
@@ -262,6 +263,32 @@ void FunctionBody::over_several_objects(const ir::Loop& loop, bool is_from_start
         statements_.push_back({tree::call(function + count + ">",
                                           tree::list(tree::word("context"), std::move(lambda)))});
     }
+}
+
+// rddl::move_only_true<at_moves_>(
+//     context, state.at, rddl::tables(action.north, action.south), next.at,
+//     [&](auto& several, auto c) { return rddl::sample::valid_bernoulli(several, {0, c}, ...); },
+//     [&] { rddl::for_affected_objects<cell_count>(...); });
+tree::Expression FunctionBody::or_move(const ir::Loop& loop, tree::Expression loop_of_affected) {
+    const ir::Moves& moves = *loop.affected->moves;
+    const auto before = expressions_.mark();
+    const ir::Nest nest = ir::nest_of(loop);
+    const ir::BufferId target = only_target(nest);
+    const auto draw =
+        ir::only_bernoulli(program(), ir::only_statement<ir::Store>(*nest.body)->value);
+    const auto entered = expressions_.enter(nest);
+    tree::Expression drawing{tree::Lambda{
+        {{tree::Declared{"auto&", entered.context}}, {tree::Declared{"auto", entered.objects}}},
+        inner(1, [&] { return_value(*draw); })}};
+    expressions_.leave_nest();
+    expressions_.return_to(before);
+    tree::Block otherwise;
+    otherwise.push_back({std::move(loop_of_affected)});
+    return tree::call(
+        "rddl::move_only_true<" + expressions_.unit().names.buffers[moves.table.index] + ">",
+        tree::list(tree::word("context"), expressions_.record(loop.affected->few),
+                   tree::call("rddl::tables", tables(moves.choices)), expressions_.record(target),
+                   std::move(drawing), tree::Expression{tree::Lambda{{}, std::move(otherwise)}}));
 }
 
 // The parameters of a body that one environment of a pack may run: places and moves get names.
