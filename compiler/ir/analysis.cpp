@@ -520,6 +520,18 @@ bool reads(const Program& program, NodeId id, BufferId buffer) {
                        [&](NodeId each) { return buffer_read_by(program[each]) == buffer; });
 }
 
+std::optional<NodeId> only_bernoulli(const Program& program, NodeId id) {
+    std::optional<NodeId> only;
+    const bool has_others = any_node_of(program, id, [&](NodeId each) {
+        const Node& node = program[each];
+        if (std::holds_alternative<Apply>(node.form) || !place_of(node)) return false;
+        const auto* sample = std::get_if<Sample>(&node.form);
+        return !sample || sample->distribution != Distribution::Bernoulli ||
+               std::exchange(only, each).value_or(each) != each;
+    });
+    return has_others ? std::nullopt : only;
+}
+
 std::optional<NodeId> converted_bool(const Program& program, NodeId id) {
     const auto* convert = std::get_if<Convert>(&program[id].form);
     if (!convert || program[convert->operand].type != Scalar::Bool) return std::nullopt;

@@ -64,6 +64,9 @@ bool any_node_of(const Program& program, NodeId id, const Has& has) {
 }
 // Whether the node or one below it reads the buffer.
 bool reads(const Program& program, NodeId id, BufferId buffer);
+// The only draw of the node and those below it; nothing if there are others, or if it is no
+// Bernoulli.
+std::optional<NodeId> only_bernoulli(const Program& program, NodeId id);
 // The bool that a node makes a number of, 0 or 1 and never -0; nothing of another node.
 std::optional<NodeId> converted_bool(const Program& program, NodeId id);
 // The place of a node that draws or may fault.

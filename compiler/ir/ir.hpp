@@ -295,10 +295,19 @@ struct Spread {
     std::vector<NodeId> indices;  // of the leading dimensions
     NodeId bits;
 };
+// Where one element of a table of bools is true, it and a few bools decide which bool of a loop is
+// true: the loop has one draw, of which these bools are true or false
+// (passes/lanes/look_up_moves.hpp).
+struct Moves {
+    std::vector<BufferId> choices;  // bools of the state or the action, without parameters
+    BufferId table;  // constant rddl::MoveCodes, holds_places: by the place of the element and, as
+                     // bits, the choices, the first one lowest
+};
 // The bools of a loop are false except for objects that read a true element of another table.
 struct Affected {
     BufferId few;            // a table of bools, as many as the loop has objects
     BufferId rows, objects;  // constant ints: element i is read by objects[rows[i]], ...
+    std::optional<Moves> moves = {};
 };
 // The objects of a loop over bools whose element of one table is false keep that of another table.
 struct Chosen {

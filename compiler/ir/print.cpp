@@ -272,16 +272,26 @@ class Printer {
                                                        : "";
         const std::string affected =
             loop.affected ? ", affected by " + element(loop.affected->few, {}) : "";
+        const bool has_moves = loop.affected && loop.affected->moves;
         const std::string chosen =
             loop.chosen ? fmt::format(", chosen by {}, others {}", element(loop.chosen->few, {}),
                                       element(loop.chosen->kept, {}))
                         : "";
         writer_
-            .line(fmt::format("for {}{}{}{}{}", binding(loop.variable), how, affected, chosen,
+            .line(fmt::format("for {}{}{}{}{}{}", binding(loop.variable), how, affected,
+                              has_moves ? moved(*loop.affected->moves) : "", chosen,
                               loop.clearances ? near(*loop.clearances) : ""))
             .indent();
         block(loop.body);
         writer_.dedent();
+    }
+
+    // ", moves at-moves[action.north, action.south]"
+    std::string moved(const Moves& moves) {
+        std::string choices;
+        for (const BufferId choice : moves.choices)
+            choices += (choices.empty() ? "" : ", ") + element(choice, {});
+        return fmt::format(", moves {}[{}]", program_[moves.table].name, choices);
     }
 
     // ", near clearances[state.x, state.y] of scratch.dx, scratch.dy"

@@ -30,6 +30,10 @@ void change_tables(Block& block, const std::function<void(BufferId&)>& change) {
                     change(loop.affected->few);
                     change(loop.affected->rows);
                     change(loop.affected->objects);
+                    if (auto& moves = loop.affected->moves) {
+                        for (BufferId& choice : moves->choices) change(choice);
+                        change(moves->table);
+                    }
                 }
                 if (loop.chosen) {
                     change(loop.chosen->few);

@@ -612,6 +612,7 @@ class Verifier {
                         rows.storage == Storage::Constant && rows.count() == few.count() + 1 &&
                         program_[form.affected->objects].storage == Storage::Constant,
                     "'{}' does not say which objects '{}' affects", rows.name, few.name);
+            if (form.affected->moves) moves(*form.affected->moves, few);
         }
         if (form.chosen) {
             const Buffer& few = program_[form.chosen->few];
@@ -624,6 +625,19 @@ class Verifier {
         }
         if (form.clearances) near(*form.clearances);
         for (const Statement& each : form.body) statement(each, scope, readable);
+    }
+
+    void moves(const Moves& form, const Buffer& few) {
+        const Buffer& table = program_[form.table];
+        const auto is_bool = [&](BufferId choice) {
+            const Buffer& buffer = program_[choice];
+            return buffer.shape.empty() && buffer.scalar == Scalar::Bool &&
+                   is_one_of(buffer.storage, {Storage::State, Storage::Action});
+        };
+        require(table.storage == Storage::Constant && table.holds_places &&
+                    table.count() == few.count() << form.choices.size() &&
+                    std::ranges::all_of(form.choices, is_bool),
+                "'{}' does not say where what is true in '{}' moves", table.name, few.name);
     }
 
     void near(const Clearances& form) {

@@ -44,6 +44,7 @@
 #include "passes/lanes/evaluate_together.hpp"
 #include "passes/lanes/group_angles.hpp"
 #include "passes/lanes/keep_unchosen.hpp"
+#include "passes/lanes/look_up_moves.hpp"
 #include "passes/lanes/name_elements.hpp"
 #include "passes/lanes/narrow_objects.hpp"
 #include "passes/lanes/quantify_together.hpp"
@@ -470,8 +471,14 @@ constexpr Pass in_order[] = {
      choose_evaluation,
      "selects, draws, loads and roundings are evaluated in the cheapest way",
      {"evaluate_together"},
-     "loops over several objects load as suits them all; no pass below looks at expressions",
+     "loops over several objects load as suits them all; no pass below changes expressions",
      always_runs},
+    {"look_up_moves",
+     Phase::Lanes,
+     look_up_moves,
+     "loops of draws look up where the only true bool of a table goes",
+     {"visit_affected", "choose_evaluation"},
+     "these say which loops follow a table of few true bools, and which draws need no check"},
 };
 
 // Whether each pass stands behind those that it names.

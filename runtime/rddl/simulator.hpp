@@ -9,6 +9,7 @@
 #include <rddl/object_lanes/chosen_objects.hpp>
 #include <rddl/object_lanes/clearance.hpp>
 #include <rddl/object_lanes/many_objects.hpp>
+#include <rddl/object_lanes/moves.hpp>
 #include <rddl/object_lanes/objects.hpp>
 #include <rddl/object_lanes/rows.hpp>
 #include <rddl/object_lanes/step_numbers.hpp>

@@ -4,6 +4,7 @@
 #include "emit/cpp/literals.hpp"
 #include "emit/cpp/print.hpp"
 #include "emit/lower/operators.hpp"
+#include "ir/visits.hpp"
 #include "support/match.hpp"
 
 #include <algorithm>
@@ -131,15 +132,28 @@ std::string_view wish_for(const ir::Node& node) {
     return "term";
 }
 
+// Whether the statements are visits that one function makes.
+bool take_turns(const ir::Program& program, const ir::Statement& first,
+                const ir::Statement& second) {
+    const auto* a = std::get_if<ir::Visit>(&first.form);
+    const auto* b = std::get_if<ir::Visit>(&second.form);
+    return a && b && ir::may_take_turns(program, *a, *b);
+}
+
 }  // namespace
 
 // --------------------------------------------------------------------------- statements
 
 void FunctionBody::block(const ir::Block& block) {
     for (std::size_t k = 0; k < block.size(); ++k) {
-        if (k + 1 < block.size() && stores_start(program(), block[k], block[k + 1]))
-            over_several_objects(std::get<ir::Loop>(block[++k].form), true);
-        else
+        const ir::Statement* const next = k + 1 < block.size() ? &block[k + 1] : nullptr;
+        if (next && stores_start(program(), block[k], *next)) {
+            over_several_objects(std::get<ir::Loop>(next->form), true);
+            ++k;
+        } else if (next && take_turns(program(), block[k], *next)) {
+            visits({&std::get<ir::Visit>(block[k].form), &std::get<ir::Visit>(next->form)});
+            ++k;
+        } else
             match(block[k].form, [&](const auto& form) { statement(form); });
     }
 }
@@ -232,12 +246,13 @@ void FunctionBody::over_several_objects(const ir::Loop& loop, bool is_from_start
     expressions_.leave_nest();
     expressions_.return_to(before);
     if (loop.affected) {
-        const auto& [few, rows, affected] = *loop.affected;
-        statements_.push_back(
-            {tree::call("rddl::for_affected_objects<" + count + ">",
-                        tree::list(tree::word("context"), expressions_.record(few),
-                                   expressions_.record(rows), expressions_.record(affected),
-                                   expressions_.record(only_target(nest)), std::move(lambda)))});
+        const auto& [few, rows, affected, moves] = *loop.affected;
+        tree::Expression all =
+            tree::call("rddl::for_affected_objects<" + count + ">",
+                       tree::list(tree::word("context"), expressions_.record(few),
+                                  expressions_.record(rows), expressions_.record(affected),
+                                  expressions_.record(only_target(nest)), std::move(lambda)));
+        statements_.push_back({moves ? or_move(loop, std::move(all)) : std::move(all)});
     } else if (loop.chosen) {
         statements_.push_back(
             {tree::call("rddl::for_chosen_objects<" + count + ">",
@@ -262,6 +277,32 @@ void FunctionBody::over_several_objects(const ir::Loop& loop, bool is_from_start
         statements_.push_back({tree::call(function + count + ">",
                                           tree::list(tree::word("context"), std::move(lambda)))});
     }
+}
+
+// rddl::move_only_true<at_moves_>(
+//     context, state.at, rddl::tables(action.north, action.south), next.at,
+//     [&](auto& several, auto c) { return rddl::sample::valid_bernoulli(several, {0, c}, ...); },
+//     [&] { rddl::for_affected_objects<cell_count>(...); });
+tree::Expression FunctionBody::or_move(const ir::Loop& loop, tree::Expression loop_of_affected) {
+    const ir::Moves& moves = *loop.affected->moves;
+    const auto before = expressions_.mark();
+    const ir::Nest nest = ir::nest_of(loop);
+    const ir::BufferId target = only_target(nest);
+    const auto draw =
+        ir::only_bernoulli(program(), ir::only_statement<ir::Store>(*nest.body)->value);
+    const auto entered = expressions_.enter(nest);
+    tree::Expression drawing{tree::Lambda{
+        {{tree::Declared{"auto&", entered.context}}, {tree::Declared{"auto", entered.objects}}},
+        inner(1, [&] { return_value(*draw); })}};
+    expressions_.leave_nest();
+    expressions_.return_to(before);
+    tree::Block otherwise;
+    otherwise.push_back({std::move(loop_of_affected)});
+    return tree::call(
+        "rddl::move_only_true<" + expressions_.unit().names.buffers[moves.table.index] + ">",
+        tree::list(tree::word("context"), expressions_.record(loop.affected->few),
+                   tree::call("rddl::tables", tables(moves.choices)), expressions_.record(target),
+                   std::move(drawing), tree::Expression{tree::Lambda{{}, std::move(otherwise)}}));
 }
 
 // The parameters of a body that one environment of a pack may run: places and moves get names.
@@ -335,7 +376,13 @@ void FunctionBody::statement(const ir::Spread& spread) {
 // rddl::visit_true(near, ROAD_rows_, [&](rddl::Index x, rddl::Index entry,
 //                                              const Bool& is_there) { ... });
 void FunctionBody::statement(const ir::Visit& visit) {
-    const auto& few = std::get<ir::Load>(program()[visit.condition].form);
+    visits({&visit});
+}
+
+// One visit, or two of the same elements that take turns (rddl::visit_true_in_turn).
+void FunctionBody::visits(const std::vector<const ir::Visit*>& all) {
+    const ir::Visit& first = *all.front();
+    const auto& few = std::get<ir::Load>(program()[first.condition].form);
     const auto [elements, is_first] = true_elements_.try_emplace(few.buffer);
     if (is_first) {
         elements->second = expressions_.claim(program()[few.buffer].name);
@@ -343,16 +390,21 @@ void FunctionBody::statement(const ir::Visit& visit) {
             {tree::Assign{{tree::Declared{"const auto&", elements->second}},
                           tree::call("rddl::true_elements", {expressions_.record(few.buffer)})}});
     }
-    const auto before = expressions_.mark();
     tree::Expressions arguments = {tree::word(elements->second)};
+    if (first.entries) arguments.push_back(expressions_.record(first.entries->rows));
+    for (const ir::Visit* const visit : all) arguments.push_back(marks_of(*visit));
+    statements_.push_back({tree::call(
+        all.size() > 1 ? "rddl::visit_true_in_turn" : "rddl::visit_true", std::move(arguments))});
+}
+
+// [&](rddl::Index x, rddl::Index entry, const Bool& is_there) { ... }
+tree::Expression FunctionBody::marks_of(const ir::Visit& visit) {
+    const auto before = expressions_.mark();
     const auto index = [&](ir::VariableId variable) {
         return tree::Expression{tree::Declared{"rddl::Index", expressions_.enter(variable)}};
     };
     tree::Expressions parameters = {index(visit.visited)};
-    if (visit.entries) {
-        arguments.push_back(expressions_.record(visit.entries->rows));
-        parameters.push_back(index(visit.entries->variable));
-    }
+    if (visit.entries) parameters.push_back(index(visit.entries->variable));
     const std::string is_there = expressions_.claim("is_there");
     parameters.push_back(
         {tree::Declared{"const " + expressions_.type(ir::Scalar::Bool) + "&", is_there}});
@@ -367,9 +419,8 @@ void FunctionBody::statement(const ir::Visit& visit) {
             mark(*each, is_there);
         }
     });
-    arguments.push_back({tree::Lambda{std::move(parameters), std::move(body)}});
-    statements_.push_back({tree::call("rddl::visit_true", std::move(arguments))});
     expressions_.return_to(before);
+    return {tree::Lambda{std::move(parameters), std::move(body)}};
 }
 
 // rddl::mark<true>(next.at[x], is_there && action.go[x]);

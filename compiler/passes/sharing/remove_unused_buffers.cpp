@@ -140,6 +140,8 @@ std::vector<bool> used_buffers(const ir::Program& program) {
         ir::for_each_statement<ir::Loop>(*block, [&](const ir::Loop& loop) {
             if (loop.affected)
                 used[loop.affected->rows.index] = used[loop.affected->objects.index] = true;
+            if (loop.affected && loop.affected->moves)
+                used[loop.affected->moves->table.index] = true;
             if (loop.clearances) used[loop.clearances->table.index] = true;
         });
         ir::for_each_statement<ir::Visit>(*block, [&](const ir::Visit& visit) {

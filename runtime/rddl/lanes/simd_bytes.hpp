@@ -204,6 +204,20 @@ template <int count>
     add(std::uint8_t{});
     return rest != 0;
 }
+// Zeros, in the parts that is_any_stored_byte loads.
+template <int count>
+[[gnu::always_inline]] inline void clear_bytes(void* bytes) {
+    auto* next = static_cast<char*>(bytes);
+    const auto clear = [&](auto part) __attribute__((always_inline)) {
+        __builtin_memcpy(next, &part, sizeof part);
+        next += sizeof part;
+    };
+    for (int i = 0; i + 16 <= count; i += 16) clear(TwoWords{});
+    if constexpr ((count & 8) != 0) clear(std::uint64_t{});
+    if constexpr ((count & 4) != 0) clear(std::uint32_t{});
+    if constexpr ((count & 2) != 0) clear(std::uint16_t{});
+    if constexpr ((count & 1) != 0) clear(std::uint8_t{});
+}
 // The lowest bits at these places, in their order.
 [[gnu::always_inline]] inline std::uint64_t deposited(std::uint64_t bits, std::uint64_t places) {
 #ifdef __BMI2__

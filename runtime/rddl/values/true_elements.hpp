@@ -235,6 +235,32 @@ RDDL_INLINE void visit_true(const Elements& elements, const Rows& rows, Mark&& m
     });
 }
 
+// The visits by first() and then by second(), which may take turns where one x alone is true: then
+// its entries are visited once.
+template <std::size_t n, class Rows, class First, class Second>
+RDDL_INLINE void visit_true_in_turn(const TrueElements<n>& elements, const Rows& rows,
+                                    First&& first, Second&& second) {
+    const Index x = elements.first;
+    if (x == static_cast<Index>(n)) return;
+    // A call of its own, so that the marks stand in the step only once.
+    if (elements.has_others) [[unlikely]]
+        return [&]() __attribute__((noinline)) {
+            visit_true(elements, rows, first);
+            visit_true(elements, rows, second);
+        }
+    ();
+    for (Index entry = rows[x]; entry < rows[x + 1]; ++entry) {
+        first(x, entry, true);
+        second(x, entry, true);
+    }
+}
+template <std::size_t n, int width, class Rows, class First, class Second>
+RDDL_INLINE void visit_true_in_turn(const std::array<Mask<width>, n>& elements, const Rows& rows,
+                                    First&& first, Second&& second) {
+    visit_true(elements, rows, first);
+    visit_true(elements, rows, second);
+}
+
 // Gives an element the value where the condition is true.
 template <bool value>
 RDDL_INLINE void mark(bool& element, bool condition) {

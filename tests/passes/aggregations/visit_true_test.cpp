@@ -1,5 +1,7 @@
 #include "passes/aggregations/visit_true.hpp"
 
+#include "ir/analysis.hpp"
+#include "ir/visits.hpp"
 #include "texts.hpp"
 
 namespace rddlc {
@@ -45,6 +47,26 @@ next.moved = scratch.moved-any
 )");
     EXPECT_EQ(report["aggregations over the few that are true"], 1);
     EXPECT_EQ(report["tables marked where few are true"], 1);
+}
+
+// A road that leads to where it begins would make a vehicle leave and stay, in this order alone.
+TEST(VisitTrue, TakesTurnsUnlessAnEntryIsItsObject) {
+    for (const bool has_loop : {false, true}) {
+        Problem problem = chain(
+            "moved' = exists_{?o : obj, ?p : obj} [move(?o, ?p) ^ at(?o) ^ NEXT(?o, ?p) ^ "
+            "~moved];\n"
+            "at'(?o) = if (exists_{?p : obj} [move(?p, ?o) ^ at(?p) ^ NEXT(?p, ?o)]) then true\n"
+            "    else at(?o) ^ ~exists_{?p : obj} [move(?o, ?p) ^ at(?o) ^ NEXT(?o, ?p)];");
+        if (has_loop) problem.non_fluents += "NEXT(b7, b7);";
+        passes::Report report;
+        const ir::Program program = passes::visit_true(grounded_with_many(problem), report);
+        std::vector<ir::Visit> visits;
+        for (const ir::Block* block : ir::blocks_of(program))
+            ir::for_each_statement<ir::Visit>(
+                *block, [&](const ir::Visit& visit) { visits.push_back(visit); });
+        ASSERT_EQ(visits.size(), 2);
+        EXPECT_EQ(ir::may_take_turns(program, visits[0], visits[1]), !has_loop);
+    }
 }
 
 TEST(VisitTrue, LeavesOthers) {

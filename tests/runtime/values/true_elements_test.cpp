@@ -220,6 +220,38 @@ TEST(VisitTrue, MarksTheEntriesOfTheRowsOfTrueElements) {
 }
 
 // One true element is visited without a look for others.
+// Things move along a ring; one that another follows stays true, so all leave before any arrives.
+TEST(VisitTrue, TakesTurnsWhereOneIsTrue) {
+    constexpr std::size_t n = 70;
+    std::array<std::int64_t, n + 1> rows{};
+    for (std::size_t x = 0; x < n; ++x) rows[x + 1] = rows[x] + 1;
+    const auto move = [&]<class Bool>(const std::array<Bool, n>& from) {
+        std::array<Bool, n> to = from;
+        visit_true_in_turn(
+            true_elements(from), rows,
+            [&](Index x, Index, const Bool& is_there) {
+                mark<false>(to[static_cast<std::size_t>(x)], is_there);
+            },
+            [&](Index, Index entry, const Bool& is_there) {
+                mark<true>(to[static_cast<std::size_t>(entry + 1) % n], is_there);
+            });
+        return to;
+    };
+    for (const std::vector<std::size_t>& places :
+         std::vector<std::vector<std::size_t>>{{}, {3}, {69}, {3, 4}, {68, 69, 0}}) {
+        std::array<bool, n> row{}, moved{};
+        std::array<Mask<16>, n> masks;
+        masks.fill(Mask<16>{false});
+        for (const std::size_t place : places) {
+            row[place] = moved[(place + 1) % n] = true;
+            masks[place] = Mask<16>{true};
+        }
+        EXPECT_EQ(move(row), moved);
+        const auto moved_masks = move(masks);
+        for (std::size_t x = 0; x < n; ++x) EXPECT_EQ(moved_masks[x][5], moved[x]);
+    }
+}
+
 TEST(VisitTrue, TakesTrueElementsInOrder) {
     const auto visited = [](const std::vector<std::size_t>& places) {
         std::array<bool, 130> row{};
