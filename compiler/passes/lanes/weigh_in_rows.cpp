@@ -22,7 +22,7 @@ namespace {
 
 // As many draws have a lane each.
 constexpr std::int64_t draws_of_register = 8;
-constexpr std::size_t most_counted = 3;  // bools, since each one more is one more select
+constexpr std::size_t most_counted_bools = 3;  // since each one more is one more select
 
 using Values = std::vector<ir::Value>;
 
@@ -265,14 +265,14 @@ class WeightRows {
         if (const auto* convert = std::get_if<ir::Convert>(&node.form)) {
             if (program_[convert->operand].type != ir::Scalar::Bool) return false;
             bools.push_back(convert->operand);
-            return bools.size() <= most_counted;
+            return bools.size() <= most_counted_bools;
         }
         if (const auto* apply = std::get_if<ir::Apply>(&node.form))
             return apply->op == Operator::Add && counts(apply->operands[0], bools) &&
                    counts(apply->operands[1], bools);
         const auto* const sum = std::get_if<ir::Reduce>(&node.form);
         if (!sum || sum->op != Reduction::Sum || sum->bounds ||
-            program_[sum->variable].size > static_cast<std::int64_t>(most_counted))
+            program_[sum->variable].size > static_cast<std::int64_t>(most_counted_bools))
             return false;
         for (std::int64_t k = 0; k < program_[sum->variable].size; ++k) {
             std::map<ir::NodeId, ir::NodeId> entered{
