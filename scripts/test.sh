@@ -67,7 +67,8 @@ export RDDL_REPOSITORY
 # also for the precompiled header (https://ccache.dev/manual/4.7.html#_precompiled_headers).
 export PATH="/usr/lib/ccache:$PATH" CCACHE_DIR="$PWD/build/ccache" CCACHE_MAXSIZE=1G
 export CCACHE_SLOPPINESS=pch_defines,time_macros
-jobs=$(nproc)
+# One more than there are processors: some tests wait for a time limit, a browser or a child.
+jobs=$(($(nproc) + 1))
 # The end of a long log says what failed, and how.
 show_failures() {
     local log=$1/Testing/Temporary test
