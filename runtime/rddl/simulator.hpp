@@ -21,6 +21,7 @@
 #include <rddl/values/context.hpp>
 #include <rddl/values/linear_algebra.hpp>
 #include <rddl/values/moderate.hpp>
+#include <rddl/values/narrow_bits.hpp>
 #include <rddl/values/ops.hpp>
 #include <rddl/values/reductions.hpp>
 #include <rddl/values/search.hpp>

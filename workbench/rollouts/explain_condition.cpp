@@ -223,8 +223,9 @@ std::string Explanation::text() const {
 std::optional<Explanation> explain_condition(const ir::Program& program,
                                              const ir::Evaluator& evaluator,
                                              const ir::Computation& condition, ir::Records records,
-                                             Context context) {
-    return Explainer(program, evaluator, records, context).explain(condition);
+                                             const Context& context) {
+    Context own = context;
+    return Explainer(program, evaluator, records, own).explain(condition);
 }
 
 }  // namespace rddlc::workbench

@@ -26,6 +26,6 @@ struct Explanation {
 std::optional<Explanation> explain_condition(const ir::Program& program,
                                              const ir::Evaluator& evaluator,
                                              const ir::Computation& condition, ir::Records records,
-                                             Context context);
+                                             const Context& context);
 
 }  // namespace rddlc::workbench

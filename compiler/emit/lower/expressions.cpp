@@ -92,6 +92,8 @@ Expression Expressions::lower(ir::NodeId id) {
     --nodes_left_;
     if (const auto named = named_.find(id); named != named_.end()) return word(named->second);
     const ir::Node& node = unit_.program[id];
+    const auto* bits = std::get_if<ir::Bits>(&node.form);
+    if (bits && unit_.narrow_bits[id.index]) return bits_of(*bits, "narrow_");
     return match(node.form, [&](const auto& form) { return lower(node, form); });
 }
 
@@ -136,10 +138,15 @@ Expression Expressions::lower(const ir::Node&, const ir::Element& element) {
 }
 
 Expression Expressions::lower(const ir::Node&, const ir::Bits& bits) {
+    return bits_of(bits, "");
+}
+// "rddl::bits(state.on)", "rddl::narrow_action_bits(action.move[x])"
+Expression Expressions::bits_of(const ir::Bits& bits, std::string_view kind) {
     const std::string first = bits.first == 0 ? "" : "<" + std::to_string(bits.first) + ">";
     const bool of_action = unit_.program[bits.buffer].storage == ir::Storage::Action;
-    const std::string function = of_action ? "rddl::action_bits" : "rddl::bits";
-    return tree::call(function + first, {elements(record(bits.buffer), bits.indices)});
+    const std::string function = of_action ? "action_bits" : "bits";
+    return tree::call("rddl::" + std::string(kind) + function + first,
+                      {elements(record(bits.buffer), bits.indices)});
 }
 
 // "rddl::union_of(moves_, rddl::bits(state.at[c]), action.move[c])"

@@ -133,6 +133,7 @@ class Expressions {
     tree::Expression lower(const ir::Node& node, const ir::Load& load);
     tree::Expression lower(const ir::Node& node, const ir::Search& search);
     tree::Expression lower(const ir::Node& node, const ir::Bits& bits);
+    tree::Expression bits_of(const ir::Bits& bits, std::string_view kind);
     tree::Expression lower(const ir::Node& node, const ir::Union& form);
     tree::Expression lower(const ir::Node& node, const ir::Element& element);
     tree::Expression lower(const ir::Node& node, const ir::Local& local);

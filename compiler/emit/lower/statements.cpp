@@ -549,7 +549,9 @@ void FunctionBody::prepare_declaration(ir::NodeId id) {
 }
 
 std::string FunctionBody::type_in_declaration(ir::NodeId id) {
-    if (expressions_.is_over_several()) return "const auto";
+    // Narrow bits have a type of their own in packs.
+    if (expressions_.is_over_several() || expressions_.unit().narrow_bits[id.index])
+        return "const auto";
     const bool is_index = expressions_.unit().is_uniform(id);
     return "const " + (is_index ? "rddl::Index" : expressions_.type(program()[id].type));
 }

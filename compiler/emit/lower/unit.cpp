@@ -3,6 +3,7 @@
 #include "emit/cpp/literals.hpp"
 #include "ir/action_bools.hpp"
 #include "ir/lane_count.hpp"
+#include "ir/narrow_bits.hpp"
 #include "support/match.hpp"
 
 #include <algorithm>
@@ -42,6 +43,8 @@ Unit::Unit(const ir::Program& the_program, const Sources& the_sources,
       uniform_ints(the_program.nodes.size(), false),
       contains_branch(the_program.nodes.size(), false),
       tests_action_bools(ir::tests_action_bools(the_program)),
+      narrow_bits(has_packs() ? ir::narrow_bits(the_program, properties)
+                              : std::vector<bool>(the_program.nodes.size(), false)),
       lone_series_(series_of_lone_draws()) {
     for (std::size_t index = 0; index < program.nodes.size(); ++index) {
         const ir::Node& node = program.nodes[index];

@@ -651,8 +651,8 @@ class Functions {
                 read_records(Scalar{}, columns, given, 1, plain[0]);
                 const auto violated = static_cast<std::int32_t>(
                     environments.violated_precondition(environment, plain[0]));
-                write_struct(out, violation_of(maker, violated, state[0], plain[0],
-                                               environments.context_of_next_step(environment)));
+                auto context = environments.context_of_next_step(environment);
+                write_struct(out, violation_of(maker, violated, state[0], plain[0], context));
                 return RDDL_OK;
             } catch (...) {
                 return out_of_memory();
@@ -662,7 +662,7 @@ class Functions {
     // "domain.rddl:52:9: precondition violated: release(?r) <= rlevel(?r) (at ?r = t2)"
     static rddl_violation violation_of(const Parts& maker, std::int32_t violated,
                                        const std::byte* state, const std::byte* action,
-                                       Context<Scalar> context) {
+                                       Context<Scalar>& context) {
         rddl_violation told{};
         told.precondition = violated;
         if (violated < 0) return told;

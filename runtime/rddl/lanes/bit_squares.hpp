@@ -59,29 +59,40 @@ struct TwoRegisters {
     __m512i low, high;
 };
 template <int count>
+[[gnu::always_inline]] inline __m512i squares_of_pairs(const std::uint16_t* columns, int first) {
+    const auto there = static_cast<std::uint32_t>((~std::uint64_t{0} >> (64 - count)) >> first);
+    const __m512i pairs = _mm512_maskz_loadu_epi16(there, columns + first);
+    return transposed_from_below(
+        permuted_bytes(pairs, [](int i) { return 2 * (8 * (i / 8 % 4) + 7 - i % 8) + i / 32; }));
+}
+template <int count>
 [[gnu::always_inline]] inline TwoRegisters rows_of_pairs(const std::uint16_t* columns) {
-    const auto squares_of = [&](int first) __attribute__((always_inline)) {
-        const auto there = static_cast<std::uint32_t>((~std::uint64_t{0} >> (64 - count)) >> first);
-        const __m512i pairs = _mm512_maskz_loadu_epi16(there, columns + first);
-        return transposed_from_below(permuted_bytes(
-            pairs, [](int i) { return 2 * (8 * (i / 8 % 4) + 7 - i % 8) + i / 32; }));
-    };
     constexpr auto in_low = [](int i) {
         return i % 8 * 8 + i / 8 + i % 8 / 4 * 32;
     };
     constexpr auto in_high = [](int i) {
         return i % 8 * 8 + i / 8 + i % 8 / 4 * 32 + 32;
     };
-    const __m512i first = squares_of(0);
+    const __m512i first = squares_of_pairs<count>(columns, 0);
     if constexpr (count > 32) {
-        const __m512i second = squares_of(32);
+        const __m512i second = squares_of_pairs<count>(columns, 32);
         return {permuted_bytes(first, second, in_low), permuted_bytes(first, second, in_high)};
     } else {
         const __m512i zero = _mm512_setzero_si512();
         return {permuted_bytes(first, zero, in_low), permuted_bytes(first, zero, in_high)};
     }
 }
-// The reverse.
+// The same of at most 16 or 32 columns, as rows of so many bits from the start of the register.
+template <int count, int row_bits>
+[[gnu::always_inline]] inline __m512i narrow_rows_of_pairs(const std::uint16_t* columns) {
+    static_assert(count <= row_bits && row_bits <= 32);
+    return permuted_bytes(squares_of_pairs<count>(columns, 0), [](int i) {
+        constexpr int bytes = row_bits / 8;
+        const int row = i / bytes % 16, group = i % bytes;
+        return 8 * (4 * (row / 8) + group) + row % 8;
+    });
+}
+// The reverse of the rows in two registers.
 template <int count>
 [[gnu::always_inline]] inline void store_as_pairs(TwoRegisters rows, std::uint16_t* columns) {
     const auto store = [&](int first, __m512i squares) __attribute__((always_inline)) {

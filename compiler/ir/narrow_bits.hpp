@@ -1,0 +1,16 @@
+// Bits of ints that packs may have in narrow lanes (rddl/values/narrow_bits.hpp).
+#pragma once
+
+#include "ir/analysis.hpp"
+#include "ir/ir.hpp"
+
+#include <vector>
+
+namespace rddlc::ir {
+
+// Whether a node has the bits of a whole row of at most 31 bools, or joins such bits bit by bit,
+// and is only compared, counted or joined further, with constants that have no more bits than they:
+// then lanes of 16 bits, or of 32 for more than 15 bools, give the same results. By NodeId.
+std::vector<bool> narrow_bits(const Program& program, const std::vector<Properties>& properties);
+
+}  // namespace rddlc::ir

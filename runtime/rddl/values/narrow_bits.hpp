@@ -1,0 +1,138 @@
+// Few bools as the bits of ints: in packs, the ints may have 16 or 32 bits.
+#pragma once
+
+#include <rddl/lanes/pack.hpp>
+#include <rddl/lanes/simd.hpp>
+#include <rddl/values/bits.hpp>
+
+#include <cstdint>
+#include <type_traits>
+
+namespace rddl {
+
+namespace detail {
+
+inline constexpr int most_narrow_bits = 31;
+
+#ifdef RDDL_SIMD_SQUARES
+
+// Bits of 16 environments, each a T. What they meet must fit into T, so that the results are those
+// of 64 bits.
+template <class T>
+struct NarrowBits {
+    using Vector [[gnu::vector_size(16 * sizeof(T))]] = T;
+    Vector bits;
+};
+
+template <class T>
+RDDL_INLINE Lanes<std::int64_t, 16> wide(const NarrowBits<T>& narrow) {
+    Lanes<std::int64_t, 16> result;
+    if constexpr (sizeof(T) == 2) {
+        const auto all = simd::reinterpret<__m256i>(narrow.bits);
+        result.part[0] = simd::reinterpret<simd::Ints>(
+            _mm512_maskz_cvtepi16_epi64(0xff, _mm256_castsi256_si128(all)));
+        result.part[1] = simd::reinterpret<simd::Ints>(
+            _mm512_maskz_cvtepi16_epi64(0xff, _mm256_extracti128_si256(all, 1)));
+    } else {
+        const auto all = simd::reinterpret<__m512i>(narrow.bits);
+        result.part[0] = simd::reinterpret<simd::Ints>(
+            _mm512_maskz_cvtepi32_epi64(0xff, _mm512_maskz_extracti64x4_epi64(0xff, all, 0)));
+        result.part[1] = simd::reinterpret<simd::Ints>(
+            _mm512_maskz_cvtepi32_epi64(0xff, _mm512_maskz_extracti64x4_epi64(0xff, all, 1)));
+    }
+    return result;
+}
+
+template <class T>
+RDDL_INLINE Mask<16> are_equal(const NarrowBits<T>& a, std::int64_t b) {
+    const typename NarrowBits<T>::Vector all = NarrowBits<T>{}.bits + static_cast<T>(b);
+    if constexpr (sizeof(T) == 2)
+        return Mask<16>::of_bits(_mm256_cmpeq_epi16_mask(simd::reinterpret<__m256i>(a.bits),
+                                                         simd::reinterpret<__m256i>(all)));
+    else
+        return Mask<16>::of_bits(_mm512_cmpeq_epi32_mask(simd::reinterpret<__m512i>(a.bits),
+                                                         simd::reinterpret<__m512i>(all)));
+}
+
+template <class T>
+RDDL_INLINE Mask<16> operator==(const NarrowBits<T>& a, std::int64_t b) {
+    return are_equal(a, b);
+}
+template <class T>
+RDDL_INLINE Mask<16> operator!=(const NarrowBits<T>& a, std::int64_t b) {
+    return !are_equal(a, b);
+}
+
+template <int count>
+RDDL_INLINE auto narrow_bits_of(const Mask<16>* bools) {
+    using T = std::conditional_t<(count <= 15), std::int16_t, std::int32_t>;
+    const __m512i rows = simd::narrow_rows_of_pairs<count, int{8 * sizeof(T)}>(&bools->bits);
+    if constexpr (sizeof(T) == 2)
+        return NarrowBits<T>{simd::reinterpret<typename NarrowBits<T>::Vector>(
+            _mm512_maskz_extracti64x4_epi64(0xff, rows, 0))};
+    else
+        return NarrowBits<T>{simd::reinterpret<typename NarrowBits<T>::Vector>(rows)};
+}
+
+#endif
+
+}  // namespace detail
+
+#ifdef RDDL_SIMD_SQUARES
+
+template <class T>
+RDDL_INLINE detail::NarrowBits<T> bit_and(const detail::NarrowBits<T>& a,
+                                          const detail::NarrowBits<T>& b) {
+    return {a.bits & b.bits};
+}
+template <class T>
+RDDL_INLINE detail::NarrowBits<T> bit_or(const detail::NarrowBits<T>& a,
+                                         const detail::NarrowBits<T>& b) {
+    return {a.bits | b.bits};
+}
+template <class T>
+RDDL_INLINE detail::NarrowBits<T> bit_xor(const detail::NarrowBits<T>& a,
+                                          const detail::NarrowBits<T>& b) {
+    return {a.bits ^ b.bits};
+}
+template <class T>
+RDDL_INLINE detail::NarrowBits<T> bit_and(const detail::NarrowBits<T>& a, std::int64_t b) {
+    return {a.bits & static_cast<T>(b)};
+}
+template <class T>
+RDDL_INLINE detail::NarrowBits<T> bit_or(const detail::NarrowBits<T>& a, std::int64_t b) {
+    return {a.bits | static_cast<T>(b)};
+}
+template <class T>
+RDDL_INLINE detail::NarrowBits<T> bit_xor(const detail::NarrowBits<T>& a, std::int64_t b) {
+    return {a.bits ^ static_cast<T>(b)};
+}
+template <class T>
+RDDL_INLINE Lanes<std::int64_t, 16> count_ones(const detail::NarrowBits<T>& a) {
+    return count_ones(detail::wide(a));
+}
+
+#endif
+
+// The elements of a table of at most 31 bools as `bits` has them, for `bit_and`, `bit_or` and
+// `bit_xor` with their like and with ints of 16 bits, of 32 for more than 15 bools; for ==, != and
+// `count_ones`.
+template <bool just_stored = true, class Table>
+RDDL_INLINE auto narrow_bits(const Table& table) {
+    constexpr auto count = static_cast<int>(detail::element_count<Table>);
+    static_assert(count <= detail::most_narrow_bits);
+    const auto* const bools = detail::first_element(table);
+#ifdef RDDL_SIMD_SQUARES
+    if constexpr (std::is_same_v<decltype(bools), const Mask<16>* const>)
+        return detail::narrow_bits_of<count>(bools);
+    else
+#endif
+        return detail::bits_of<count, just_stored>(bools);
+}
+// The bits of the caller's actions.
+template <class Table>
+RDDL_INLINE auto narrow_action_bits(const Table& table) {
+    return narrow_bits<false>(table);
+}
+
+}  // namespace rddl
