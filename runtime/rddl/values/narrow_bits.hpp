@@ -63,9 +63,26 @@ RDDL_INLINE Mask<16> operator!=(const NarrowBits<T>& a, std::int64_t b) {
     return !are_equal(a, b);
 }
 
+// As joined_in_lanes (rddl/values/bool_rows.hpp): few masks are joined one by one.
+template <int count, class T>
+RDDL_INLINE NarrowBits<T> joined_in_narrow_lanes(const Mask<16>* bools) {
+    NarrowBits<T> joined{};
+    for (int i = 0; i < count; ++i) {
+        const auto bit = typename NarrowBits<T>::Vector{} + static_cast<T>(1 << i);
+        if constexpr (sizeof(T) == 2)
+            joined.bits |= simd::reinterpret<typename NarrowBits<T>::Vector>(
+                _mm256_maskz_mov_epi16(bools[i].bits, simd::reinterpret<__m256i>(bit)));
+        else
+            joined.bits |= simd::reinterpret<typename NarrowBits<T>::Vector>(
+                _mm512_maskz_mov_epi32(bools[i].bits, simd::reinterpret<__m512i>(bit)));
+    }
+    return joined;
+}
+
 template <int count>
 RDDL_INLINE auto narrow_bits_of(const Mask<16>* bools) {
     using T = std::conditional_t<(count <= 15), std::int16_t, std::int32_t>;
+    if constexpr (count <= most_joined) return joined_in_narrow_lanes<count, T>(bools);
     const __m512i rows = simd::narrow_rows_of_pairs<count, int{8 * sizeof(T)}>(&bools->bits);
     if constexpr (sizeof(T) == 2)
         return NarrowBits<T>{simd::reinterpret<typename NarrowBits<T>::Vector>(
@@ -100,12 +117,24 @@ RDDL_INLINE detail::NarrowBits<T> bit_and(const detail::NarrowBits<T>& a, std::i
     return {a.bits & static_cast<T>(b)};
 }
 template <class T>
+RDDL_INLINE detail::NarrowBits<T> bit_and(std::int64_t a, const detail::NarrowBits<T>& b) {
+    return bit_and(b, a);
+}
+template <class T>
 RDDL_INLINE detail::NarrowBits<T> bit_or(const detail::NarrowBits<T>& a, std::int64_t b) {
     return {a.bits | static_cast<T>(b)};
 }
 template <class T>
+RDDL_INLINE detail::NarrowBits<T> bit_or(std::int64_t a, const detail::NarrowBits<T>& b) {
+    return bit_or(b, a);
+}
+template <class T>
 RDDL_INLINE detail::NarrowBits<T> bit_xor(const detail::NarrowBits<T>& a, std::int64_t b) {
     return {a.bits ^ static_cast<T>(b)};
+}
+template <class T>
+RDDL_INLINE detail::NarrowBits<T> bit_xor(std::int64_t a, const detail::NarrowBits<T>& b) {
+    return bit_xor(b, a);
 }
 template <class T>
 RDDL_INLINE Lanes<std::int64_t, 16> count_ones(const detail::NarrowBits<T>& a) {
