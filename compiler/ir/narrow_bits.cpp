@@ -41,7 +41,7 @@ class NarrowBits {
                 roots_.erase(root);
         });
     }
-    // What has a name, for the name.
+    // A name stands for the value that has it.
     NodeId named(NodeId id) const {
         const auto* local = std::get_if<Local>(&program_[id].form);
         const auto value = local ? values_.find(local->local) : values_.end();
@@ -62,7 +62,7 @@ class NarrowBits {
             return no_width;
         return common_width(*apply);
     }
-    // Of the operands that are narrow, if the others are ints that fit.
+    // The width of the operands that are narrow, if the others are ints that fit.
     int common_width(const Apply& apply) const {
         int width = no_width;
         for (const NodeId operand : apply.operands) {
@@ -100,14 +100,16 @@ class NarrowBits {
         }
         return has_changed;
     }
-    // A node that is not narrow itself. Bits that are all counted are not worth it.
+    // For a node that is not narrow itself. Counts are of wide lanes, so bits that are all counted,
+    // and more than 15 bits of which some are, gain nothing.
     bool takes_narrow(const Node& node) const {
         const auto* apply = std::get_if<Apply>(&node.form);
         if (!apply) return false;
-        if (apply->op == Operator::CountOnes)
-            return !std::holds_alternative<Bits>(program_[named(apply->operands.front())].form);
-        if (!is_one_of(apply->op, {Operator::Equal, Operator::NotEqual})) return false;
         const int width = widths_[apply->operands.front().index];
+        if (apply->op == Operator::CountOnes)
+            return width == 15 &&
+                   !std::holds_alternative<Bits>(program_[named(apply->operands.front())].form);
+        if (!is_one_of(apply->op, {Operator::Equal, Operator::NotEqual})) return false;
         return width != no_width && fits(apply->operands.back(), width);
     }
 

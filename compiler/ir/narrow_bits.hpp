@@ -9,8 +9,9 @@
 namespace rddlc::ir {
 
 // Whether a node has the bits of a whole row of at most 31 bools, or joins such bits bit by bit,
-// and is only compared, counted or joined further, with constants that have no more bits than they:
-// then lanes of 16 bits, or of 32 for more than 15 bools, give the same results. By NodeId.
+// and is only compared or joined further, with constants that have no more bits than they, or
+// counted if there are 15 at most: then lanes of 16 bits, or of 32 for more, give the same results.
+// By NodeId.
 std::vector<bool> narrow_bits(const Program& program, const std::vector<Properties>& properties);
 
 }  // namespace rddlc::ir
