@@ -47,10 +47,12 @@ std::optional<ir::NodeId> tested_first(ir::Builder& builder, ir::NodeId id) {
     if (!ir::is_droppable(builder.properties(id))) return std::nullopt;
     std::vector<ir::NodeId> parts = ir::parts_of(builder.program(), id, Operator::And);
     const auto differs = take_equality(builder, parts);
-    if (!differs) return std::nullopt;
+    if (!differs || parts.empty()) return std::nullopt;
     const ir::NodeId rest = ir::joined(builder, Operator::And, parts);
     if (builder.properties(rest).cost < worth_a_jump) return std::nullopt;
-    return builder.select(*differs, builder.constant(false), rest, ir::Evaluated::MostlyFirst);
+    // Another equality is tested second.
+    const ir::NodeId others = tested_first(builder, rest).value_or(rest);
+    return builder.select(*differs, builder.constant(false), others, ir::Evaluated::MostlyFirst);
 }
 
 }  // namespace

@@ -19,6 +19,12 @@ TEST(TestEqualitiesFirst, GuardsWhatElseHasToHold) {
         "select(select mostly first(state.x != 0.5, false, exp(state.x) > 1.0), 1.0, state.x)");
 }
 
+TEST(TestEqualitiesFirst, TestsTheSecondOfTwoNext) {
+    EXPECT_EQ(tested("(exp[x] > 1.0 ^ x == 0.5) ^ x == 0.25").after,
+              "select(select mostly first(state.x != 0.5, false, select mostly first(state.x != "
+              "0.25, false, exp(state.x) > 1.0)), 1.0, state.x)");
+}
+
 TEST(TestEqualitiesFirst, LeavesWhatIsCheapOrLikely) {
     for (const char* condition : {"x == 0.5 ^ x < 3", "x ~= 0.5 ^ exp[x] > 1.0",
                                   "x < 0.5 ^ exp[x] > 1.0", "x == 0.5 | exp[x] > 1.0"}) {
