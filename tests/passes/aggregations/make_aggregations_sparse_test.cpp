@@ -1,7 +1,7 @@
 #include "passes/aggregations/make_aggregations_sparse.hpp"
 
 #include "passes/arithmetic/fast_math.hpp"
-#include "problem.hpp"
+#include "texts.hpp"
 
 #include <gtest/gtest.h>
 
