@@ -146,7 +146,7 @@ std::vector<ir::VariableId> Lowering::variables_in(const std::vector<ir::NodeId>
     Variables used;
     for (ir::VariableId variable : candidates) {
         const auto depends = [&](ir::NodeId node) {
-            return std::ranges::binary_search(builder_.properties(node).free_variables, variable);
+            return ir::depends_on(builder_.properties(node), variable);
         };
         if (std::ranges::any_of(nodes, depends)) used.push_back(variable);
     }

@@ -400,10 +400,18 @@ bool is_lazy(const Program& program, const Select& select, const Properties& the
     return !is_droppable(else_properties) || !is_guarded_product(program, select);
 }
 
+bool is_index_of(const Program& program, NodeId id, VariableId variable) {
+    const auto* index = std::get_if<Index>(&program[id].form);
+    return index && index->variable == variable;
+}
+
+bool depends_on(const Properties& properties, VariableId variable) {
+    return std::ranges::binary_search(properties.free_variables, variable);
+}
+
 bool depends_on_any(const Properties& properties, std::span<const VariableId> variables) {
-    return std::ranges::any_of(variables, [&](VariableId variable) {
-        return std::ranges::binary_search(properties.free_variables, variable);
-    });
+    return std::ranges::any_of(
+        variables, [&](VariableId variable) { return depends_on(properties, variable); });
 }
 
 bool depends_on_none_but(const Properties& properties, std::span<const VariableId> variables) {

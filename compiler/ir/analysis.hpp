@@ -73,7 +73,10 @@ std::optional<NodeId> converted_bool(const Program& program, NodeId id);
 std::optional<Place> place_of(const Node& node);
 // The buffer that a node itself reads (Load, Search, Bits, Union, Element, Interval).
 std::optional<BufferId> buffer_read_by(const Node& node);
-// Whether one of these is among the variables that a value depends on; whether no other one is.
+// Whether a node is the index of this variable.
+bool is_index_of(const Program& program, NodeId id, VariableId variable);
+// Whether a value depends on a variable; on one of these at least; on no other one.
+bool depends_on(const Properties& properties, VariableId variable);
 bool depends_on_any(const Properties& properties, std::span<const VariableId> variables);
 bool depends_on_none_but(const Properties& properties, std::span<const VariableId> variables);
 // The operands of a chain of one operator, such as the conditions that && joins. A node that is no

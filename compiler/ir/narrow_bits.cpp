@@ -1,5 +1,7 @@
 #include "ir/narrow_bits.hpp"
 
+#include <rddl/values/narrow_width.hpp>
+
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -9,7 +11,9 @@
 namespace rddlc::ir {
 namespace {
 
+// Bits of a lane, as rddl::narrow_width has them.
 constexpr int no_width = 0;
+constexpr int least_width = rddl::narrow_width(1);
 
 class NarrowBits {
   public:
@@ -54,8 +58,7 @@ class NarrowBits {
         const Node& node = program_[id];
         if (const auto* bits = std::get_if<Bits>(&node.form)) {
             const std::int64_t count = program_[bits->buffer].row_size(bits->indices.size());
-            if (bits->first != 0 || count > 31) return no_width;
-            return count <= 15 ? 15 : 31;
+            return bits->first == 0 ? rddl::narrow_width(count) : no_width;
         }
         const auto* apply = std::get_if<Apply>(&node.form);
         if (!apply || !is_one_of(apply->op, {Operator::BitAnd, Operator::BitOr, Operator::BitXor}))
@@ -107,7 +110,7 @@ class NarrowBits {
         if (!apply) return false;
         const int width = widths_[apply->operands.front().index];
         if (apply->op == Operator::CountOnes)
-            return width == 15 &&
+            return width == least_width &&
                    !std::holds_alternative<Bits>(program_[named(apply->operands.front())].form);
         if (!is_one_of(apply->op, {Operator::Equal, Operator::NotEqual})) return false;
         return width != no_width && fits(apply->operands.back(), width);
@@ -115,7 +118,7 @@ class NarrowBits {
 
     const Program& program_;
     const std::vector<Properties>& properties_;
-    std::vector<int> widths_;           // 15 or 31 bits of a lane, the sign aside; by NodeId
+    std::vector<int> widths_;           // rddl::narrow_width, by NodeId
     std::vector<NodeId> roots_;         // but the values of Lets
     std::map<LocalId, NodeId> values_;  // of Lets
 };

@@ -1,19 +1,16 @@
 #include "ir/nest.hpp"
 
+#include "ir/analysis.hpp"
+
 #include <algorithm>
 #include <span>
 
 namespace rddlc::ir {
 namespace {
 
-bool is_index_of(const Program& program, VariableId variable, NodeId id) {
-    const auto* index = std::get_if<Index>(&program[id].form);
-    return index && index->variable == variable;
-}
-
 bool are_indices_of(const Program& program, const Nest& nest, std::span<const NodeId> ids) {
     return std::ranges::equal(nest.variables, ids, [&](VariableId variable, NodeId id) {
-        return is_index_of(program, variable, id);
+        return is_index_of(program, id, variable);
     });
 }
 
@@ -24,9 +21,9 @@ const Apply* applied(const Program& program, Operator op, NodeId id) {
 
 // (x * size of y) + y
 bool is_place(const Program& program, std::span<const VariableId> variables, NodeId id) {
-    if (variables.size() == 1) return is_index_of(program, variables.front(), id);
+    if (variables.size() == 1) return is_index_of(program, id, variables.front());
     const auto* sum = applied(program, Operator::Add, id);
-    if (!sum || !is_index_of(program, variables.back(), sum->operands[1])) return false;
+    if (!sum || !is_index_of(program, sum->operands[1], variables.back())) return false;
     const auto* rows = applied(program, Operator::Multiply, sum->operands[0]);
     if (!rows) return false;
     const auto* size = std::get_if<Constant>(&program[rows->operands[1]].form);

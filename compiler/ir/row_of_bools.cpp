@@ -24,11 +24,6 @@ bool is_zero(const Node& node) {
                                                  : identical(constant->value, Value(0.0)));
 }
 
-bool is_index_of(const Program& program, NodeId id, VariableId variable) {
-    const auto* index = std::get_if<Index>(&program[id].form);
-    return index && index->variable == variable;
-}
-
 // Whether the last indices of an element are these variables, over all of its table's last
 // dimensions, and the other ones those of loops, and constants.
 bool is_at(const Program& program, const Load& load, std::span<const VariableId> variables) {

@@ -69,13 +69,9 @@ std::optional<SharesOfElements> shares_of_elements(const Program& program, const
     const auto& range = program[weight->buffer].range;
     if (!term || term->buffer != weight->buffer || !range || range->lower < 0) return std::nullopt;
     const auto axis = only_difference(*weight, *term);
-    const auto is_index = [&](NodeId id, VariableId variable) {
-        const auto* const index = std::get_if<Index>(&program[id].form);
-        return index && index->variable == variable;
-    };
     if (!axis || program[weight->buffer].shape[*axis] != program[over->variable].size ||
-        !is_index(weight->indices[*axis], over->variable) ||
-        !is_index(term->indices[*axis], sum->variable))
+        !is_index_of(program, weight->indices[*axis], over->variable) ||
+        !is_index_of(program, term->indices[*axis], sum->variable))
         return std::nullopt;
     return SharesOfElements{*weight, *axis, program[over->variable].size, total};
 }

@@ -11,11 +11,6 @@
 namespace rddlc::ir {
 namespace {
 
-bool is_index(const Program& program, NodeId id, VariableId variable) {
-    const auto* index = std::get_if<Index>(&program[id].form);
-    return index && index->variable == variable;
-}
-
 bool reads_marked(const Program& program, const Visit& reader, const Visit& marker) {
     return std::ranges::any_of(reader.marks, [&](const Mark& reading) {
         return std::ranges::any_of(marker.marks, [&](const Mark& marked) {
@@ -32,13 +27,13 @@ const Buffer* table_of_entries(const Program& program, const Visit& visit, const
     if (mark.indices.size() != 1) return nullptr;
     const auto* load = std::get_if<Load>(&program[mark.indices.front()].form);
     const bool is_of_entry = load && load->indices.size() == 1 &&
-                             is_index(program, load->indices.front(), visit.entries->variable) &&
+                             is_index_of(program, load->indices.front(), visit.entries->variable) &&
                              program[load->buffer].storage == Storage::Constant;
     return is_of_entry ? &program[load->buffer] : nullptr;
 }
 
 bool marks_visited(const Program& program, const Visit& visit, const Mark& mark) {
-    return mark.indices.size() == 1 && is_index(program, mark.indices.front(), visit.visited);
+    return mark.indices.size() == 1 && is_index_of(program, mark.indices.front(), visit.visited);
 }
 
 // Whether a mark of each object and one of its entries never are of the same element.

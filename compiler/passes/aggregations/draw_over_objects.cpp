@@ -79,7 +79,7 @@ class DrawsOverObjects {
     }
 
     bool depends_on(ir::NodeId id, ir::VariableId variable) const {
-        return std::ranges::binary_search(builder_.properties(id).free_variables, variable);
+        return ir::depends_on(builder_.properties(id), variable);
     }
 
     // ------------------------------------------------------------------------ generalising

@@ -131,7 +131,7 @@ class Factoring {
         return constant && constant->value == ir::Value(std::int64_t{0});
     }
     bool depends(ir::NodeId id, ir::VariableId variable) const {
-        return std::ranges::binary_search(builder_.properties(id).free_variables, variable);
+        return ir::depends_on(builder_.properties(id), variable);
     }
     const ir::Program& program() const { return builder_.program(); }
 

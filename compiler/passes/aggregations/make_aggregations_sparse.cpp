@@ -432,7 +432,7 @@ class Rewriting {
     std::optional<ir::NodeId> of_equal_terms(Reduction op, ir::NodeId term, ir::Bounds row,
                                              ir::VariableId entry) {
         const ir::Properties& properties = builder_.properties(term);
-        if (std::ranges::binary_search(properties.free_variables, entry)) return std::nullopt;
+        if (ir::depends_on(properties, entry)) return std::nullopt;
         const std::vector ends = {row.begin, row.end};
         if (op == Reduction::Exists) {
             return builder_.apply(Operator::And, {builder_.apply(Operator::Less, ends), term});

@@ -173,7 +173,7 @@ ir::NodeId OnlyObjects::load(const ir::Buffer& like, const std::string& suffix, 
 // ---------------------------------------------------------------------------------- ranges
 
 bool OnlyObjects::depends_on(ir::NodeId id, ir::VariableId variable) const {
-    return std::ranges::binary_search(builder_.properties(id).free_variables, variable);
+    return ir::depends_on(builder_.properties(id), variable);
 }
 
 bool OnlyObjects::is_within(ir::NodeId id, std::int64_t first, std::int64_t last) const {

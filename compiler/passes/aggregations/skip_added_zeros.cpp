@@ -10,11 +10,8 @@
 namespace rddlc::passes {
 namespace {
 
-// Operations (Properties::cost).
-constexpr double worth_a_branch = 20;
-
-// The term of an addition as a choice, if constants tell whether it counts: then a pack evaluates it
-// for all of its environments or for none.
+// The term of an addition as a choice, if constants tell whether it counts: then a pack evaluates
+// it for all of its environments or for none.
 std::optional<ir::NodeId> chosen_by_constants(ir::Builder& builder, ir::NodeId term) {
     const auto choice = without_bool_factor(builder, term);
     if (!choice || !choice->value) return std::nullopt;

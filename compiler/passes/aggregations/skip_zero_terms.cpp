@@ -14,14 +14,12 @@
 namespace rddlc::passes {
 namespace {
 
-// Operations (Properties::cost) that cost more than a mispredicted branch.
-constexpr double expensive = 20;
 // Operations that are worth computing before a loop.
 constexpr double worth_a_name = 4;
 
 // Also cheap ones if emitted code need not even look at them, or computes them before the sum.
 bool may_be_skipped(const ir::Properties& properties, bool is_by_row, bool is_invariant) {
-    const bool is_worth_it = is_by_row || properties.cost >= expensive ||
+    const bool is_worth_it = is_by_row || properties.cost >= worth_a_branch ||
                              (is_invariant && properties.cost >= worth_a_name);
     return is_worth_it && properties.finite && ir::is_droppable(properties);
 }

@@ -110,7 +110,7 @@ class Indexing {
     }
 
     bool depends_on(ir::NodeId id, ir::VariableId variable) const {
-        return std::ranges::binary_search(builder_.properties(id).free_variables, variable);
+        return ir::depends_on(builder_.properties(id), variable);
     }
 
     ir::Program program_;

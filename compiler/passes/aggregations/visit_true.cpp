@@ -132,7 +132,8 @@ class Visiting {
         if (std::holds_alternative<ir::Constant>(program_[id].form)) return true;
         const auto* load = std::get_if<ir::Load>(&program_[id].form);
         return load && program_[load->buffer].storage == ir::Storage::State &&
-               load->indices.size() == 1 && is_index_of(load->indices.front(), object_);
+               load->indices.size() == 1 &&
+               ir::is_index_of(program_, load->indices.front(), object_);
     }
 
     // Takes an expression of the object apart, the choice that decides first in front.
@@ -233,10 +234,6 @@ class Visiting {
         std::stable_partition(own.factors.begin(), own.factors.end(),
                               [&](ir::NodeId each) { return !reads_action(each); });
         return own;
-    }
-    bool is_index_of(ir::NodeId id, ir::VariableId variable) const {
-        const auto* index = std::get_if<ir::Index>(&program_[id].form);
-        return index && index->variable == variable;
     }
 
     bool is_few(ir::NodeId id) const {

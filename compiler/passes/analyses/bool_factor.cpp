@@ -6,7 +6,8 @@ namespace rddlc::passes {
 
 std::optional<BoolFactor> without_bool_factor(ir::Builder& builder, ir::NodeId term) {
     const ir::Program& program = builder.program();
-    if (const auto counts = ir::converted_bool(program, term)) return BoolFactor{*counts, std::nullopt};
+    if (const auto counts = ir::converted_bool(program, term))
+        return BoolFactor{*counts, std::nullopt};
     const ir::Node node = program[term];
     if (const auto* convert = std::get_if<ir::Convert>(&node.form)) {
         if (program[convert->operand].type != ir::Scalar::Int) return std::nullopt;
@@ -24,8 +25,8 @@ std::optional<BoolFactor> without_bool_factor(ir::Builder& builder, ir::NodeId t
         if (!choice) continue;
         if (!choice->value) return BoolFactor{choice->counts, is_first ? b : a};
         return BoolFactor{choice->counts,
-                      builder.apply(Operator::Multiply, {is_first ? *choice->value : a,
-                                                         is_first ? b : *choice->value})};
+                          builder.apply(Operator::Multiply, {is_first ? *choice->value : a,
+                                                             is_first ? b : *choice->value})};
     }
     return std::nullopt;
 }

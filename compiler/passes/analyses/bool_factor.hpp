@@ -8,6 +8,9 @@
 
 namespace rddlc::passes {
 
+// Operations (Properties::cost) that cost more than a mispredicted branch around them.
+inline constexpr double worth_a_branch = 20;
+
 // A product as a bool and what it is where the bool holds: nothing stands for 1.
 struct BoolFactor {
     ir::NodeId counts;

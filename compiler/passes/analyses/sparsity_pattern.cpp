@@ -147,9 +147,8 @@ Relation SparsityPattern::narrowed(Relation relation, ir::NodeId id, const ir::V
 }
 
 bool SparsityPattern::depend(std::span<const ir::NodeId> nodes, ir::VariableId variable) const {
-    return std::ranges::any_of(nodes, [&](ir::NodeId id) {
-        return std::ranges::binary_search(properties(id).free_variables, variable);
-    });
+    return std::ranges::any_of(
+        nodes, [&](ir::NodeId id) { return ir::depends_on(properties(id), variable); });
 }
 
 bool SparsityPattern::affords(ir::NodeId id, double times) {
@@ -290,8 +289,7 @@ std::optional<Relation> SparsityPattern::of_equality(ir::NodeId a, ir::NodeId b)
         index = std::get_if<ir::Index>(&program()[b].form);
         std::swap(a, b);
     }
-    if (!index || !properties(b).uniform) return std::nullopt;
-    if (std::ranges::binary_search(properties(b).free_variables, index->variable))
+    if (!index || !properties(b).uniform || ir::depends_on(properties(b), index->variable))
         return std::nullopt;
     std::vector<Axis> axes = axes_of(b);
     const auto all = volume(axes);

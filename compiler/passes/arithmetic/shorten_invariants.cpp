@@ -45,10 +45,7 @@ class Shortening {
         if (parts.size() == before) return condition;
         report_["bounds of invariants that steps keep"] +=
             static_cast<std::int64_t>(before - parts.size());
-        ir::NodeId all = parts.front();
-        for (std::size_t k = 1; k < parts.size(); ++k)
-            all = builder_.apply(Operator::And, {all, parts[k]});
-        return all;
+        return ir::joined(builder_, Operator::And, parts);
     }
 
     // A bound that a step violates by nan alone, which another comparison of the number finds.

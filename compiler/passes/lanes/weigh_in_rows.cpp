@@ -148,8 +148,7 @@ class WeightRows {
         return indices.size() == outer_.size() + 1 &&
                std::ranges::all_of(outer_, [&](ir::VariableId variable) {
                    return std::ranges::any_of(indices, [&](ir::NodeId id) {
-                       const auto* index = std::get_if<ir::Index>(&program_[id].form);
-                       return index && index->variable == variable;
+                       return ir::is_index_of(program_, id, variable);
                    });
                });
     }
@@ -213,10 +212,7 @@ class WeightRows {
                           std::holds_alternative<ir::Constant>(program_[index].form);
                });
     }
-    bool is_choice(ir::NodeId id) const {
-        const auto* const index = std::get_if<ir::Index>(&program_[id].form);
-        return index && index->variable == choice_;
-    }
+    bool is_choice(ir::NodeId id) const { return ir::is_index_of(program_, id, choice_); }
     ir::NodeId by_place(const ir::Load& load) {
         Values places;
         for (std::int64_t k = 0; k < program_[choice_].size; ++k) {
@@ -327,7 +323,7 @@ class WeightRows {
         return builder_.load(builder_.tables().constant(std::move(table)), std::move(own));
     }
     bool depends_on(ir::NodeId id, ir::VariableId variable) const {
-        return std::ranges::binary_search(builder_.properties(id).free_variables, variable);
+        return ir::depends_on(builder_.properties(id), variable);
     }
 
     ir::Program program_;

@@ -4,17 +4,16 @@
 #include <rddl/lanes/pack.hpp>
 #include <rddl/lanes/simd.hpp>
 #include <rddl/values/bits.hpp>
+#include <rddl/values/narrow_width.hpp>
 
 #include <cstdint>
 #include <type_traits>
 
 namespace rddl {
 
-namespace detail {
-
-inline constexpr int most_narrow_bits = 31;
-
 #ifdef RDDL_SIMD_SQUARES
+
+namespace detail {
 
 // Bits of 16 environments, each a T. What they meet must fit into T, so that the results are those
 // of 64 bits.
@@ -44,7 +43,7 @@ RDDL_INLINE Lanes<std::int64_t, 16> wide(const NarrowBits<T>& narrow) {
 }
 
 template <class T>
-RDDL_INLINE Mask<16> are_equal(const NarrowBits<T>& a, std::int64_t b) {
+RDDL_INLINE Mask<16> operator==(const NarrowBits<T>& a, std::int64_t b) {
     const typename NarrowBits<T>::Vector all = NarrowBits<T>{}.bits + static_cast<T>(b);
     if constexpr (sizeof(T) == 2)
         return Mask<16>::of_bits(_mm256_cmpeq_epi16_mask(simd::reinterpret<__m256i>(a.bits),
@@ -55,12 +54,8 @@ RDDL_INLINE Mask<16> are_equal(const NarrowBits<T>& a, std::int64_t b) {
 }
 
 template <class T>
-RDDL_INLINE Mask<16> operator==(const NarrowBits<T>& a, std::int64_t b) {
-    return are_equal(a, b);
-}
-template <class T>
 RDDL_INLINE Mask<16> operator!=(const NarrowBits<T>& a, std::int64_t b) {
-    return !are_equal(a, b);
+    return !(a == b);
 }
 
 // As joined_in_lanes (rddl/values/bool_rows.hpp): few masks are joined one by one.
@@ -81,7 +76,7 @@ RDDL_INLINE NarrowBits<T> joined_in_narrow_lanes(const Mask<16>* bools) {
 
 template <int count>
 RDDL_INLINE auto narrow_bits_of(const Mask<16>* bools) {
-    using T = std::conditional_t<(count <= 15), std::int16_t, std::int32_t>;
+    using T = std::conditional_t<narrow_width(count) == 15, std::int16_t, std::int32_t>;
     if constexpr (count <= most_joined) return joined_in_narrow_lanes<count, T>(bools);
     const __m512i rows = simd::narrow_rows_of_pairs<count, int{8 * sizeof(T)}>(&bools->bits);
     if constexpr (sizeof(T) == 2)
@@ -91,11 +86,7 @@ RDDL_INLINE auto narrow_bits_of(const Mask<16>* bools) {
         return NarrowBits<T>{simd::reinterpret<typename NarrowBits<T>::Vector>(rows)};
 }
 
-#endif
-
 }  // namespace detail
-
-#ifdef RDDL_SIMD_SQUARES
 
 template <class T>
 RDDL_INLINE detail::NarrowBits<T> bit_and(const detail::NarrowBits<T>& a,
@@ -149,7 +140,7 @@ RDDL_INLINE Lanes<std::int64_t, 16> count_ones(const detail::NarrowBits<T>& a) {
 template <bool just_stored = true, class Table>
 RDDL_INLINE auto narrow_bits(const Table& table) {
     constexpr auto count = static_cast<int>(detail::element_count<Table>);
-    static_assert(count <= detail::most_narrow_bits);
+    static_assert(narrow_width(count) > 0);
     const auto* const bools = detail::first_element(table);
 #ifdef RDDL_SIMD_SQUARES
     if constexpr (std::is_same_v<decltype(bools), const Mask<16>* const>)

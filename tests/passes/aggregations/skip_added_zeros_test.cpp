@@ -13,9 +13,10 @@ std::string by_constants(const std::string& cpf_of_x) {
 }
 
 TEST(SkipAddedZeros, ComputesOnlyTermsThatConstantsLetCount) {
-    EXPECT_EQ(by_constants("max_{?o : obj} [(sum_{?u : obj} v(?u)) + OUTER(?o) * cos[v(?o)] * 0.5]"),
-              "max[o in obj](sum[u in obj](state.v[u]) + "
-              "select(OUTER[o], cos(state.v[o]) * 0.5, 0.0))");
+    EXPECT_EQ(
+        by_constants("max_{?o : obj} [(sum_{?u : obj} v(?u)) + OUTER(?o) * cos[v(?o)] * 0.5]"),
+        "max[o in obj](sum[u in obj](state.v[u]) + "
+        "select(OUTER[o], cos(state.v[o]) * 0.5, 0.0))");
     EXPECT_EQ(by_constants("max_{?o : obj} [OUTER(?o) * Normal(v(?o), 1.0) + 1.0]"),
               "max[o in obj](select(OUTER[o], sample normal@0[o](state.v[o], 1.0), 0.0) + 1.0)");
 }

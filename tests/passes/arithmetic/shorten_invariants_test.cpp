@@ -7,7 +7,7 @@
 namespace rddlc {
 namespace {
 
-// What is left of the invariant, given the CPFs of speed(?o) and x.
+// The text of the invariant that the pass leaves, where speed(?o) and x have these CPFs.
 std::string left_of(const std::string& invariant, const std::string& cpf_of_speed,
                     const std::string& cpf_of_x = "x") {
     const Problem problem{
