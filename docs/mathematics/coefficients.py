@@ -58,6 +58,19 @@ show("atan", lambda z: (mp.atan(mp.sqrt(z)) / mp.sqrt(z) - 1) / z, lambda z: z, 
 end = mp.mpf(1) / 4 * margin
 show("asin", lambda z: (mp.asin(mp.sqrt(z)) / mp.sqrt(z) - 1) / z, lambda z: z, 0, end, 13)
 
+# Those of floats by doubles: atan as above.
+end = mp.tan(mp.pi / 8) ** 2 * margin
+show("atan, floats", lambda z: (mp.atan(mp.sqrt(z)) / mp.sqrt(z) - 1) / z, lambda z: z, 0, end, 6)
+
+# The logarithm to base 2 of (1 + s) / (1 - s) = s p(z) with z = s^2.
+end = ((mp.sqrt(2) - 1) / (mp.sqrt(2) + 1)) ** 2 * margin
+show("log 2, floats", lambda z: 2 * mp.atanh(mp.sqrt(z)) / mp.sqrt(z) / mp.log(2),
+     lambda z: mp.log(2) / 2, 0, end, 6)
+
+# 2^g = 1 + g p(g); the error is relative to 2^g.
+end = mp.mpf(1) / 2 * margin
+show("exp 2, floats", lambda g: (mp.mpf(2)**g - 1) / g, lambda g: g / mp.mpf(2)**g, -end, end, 7)
+
 
 def show_constant(name, value, bits):
     """A sum of doubles, each but the last with as many bits as given."""

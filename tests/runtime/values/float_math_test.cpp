@@ -69,19 +69,39 @@ TEST(FloatMath, IsAccurate) {
 
 TEST(FloatMath, IsRoundedFromDoubles) {
     expect_accuracy(-1.5f, 1.5f, 0.51, RDDL_OF(tan), RDDL_OF(std::tan));
+    expect_accuracy(1e-44f, 1e30f, 0.51, RDDL_OF(tan), RDDL_OF(std::tan), true);
+    expect_accuracy(0, 0x1.1p20f, 0.51, RDDL_OF(tan), RDDL_OF(std::tan));
     expect_accuracy(-1, 1, 0.51, RDDL_OF(asin), RDDL_OF(std::asin));
     expect_accuracy(-1, 1, 0.51, RDDL_OF(acos), RDDL_OF(std::acos));
     expect_accuracy(-30, 30, 0.51, RDDL_OF(atan), RDDL_OF(std::atan));
+    expect_accuracy(1e-44f, 3e38f, 0.51, RDDL_OF(atan), RDDL_OF(std::atan), true);
     expect_accuracy(-30, 30, 0.51, RDDL_OF(sinh), RDDL_OF(std::sinh));
     expect_accuracy(-30, 30, 0.51, RDDL_OF(cosh), RDDL_OF(std::cosh));
     expect_accuracy(-5, 5, 0.51, RDDL_OF(tanh), RDDL_OF(std::tanh));
     expect_accuracy(-5, 5, 0.51, RDDL_OF(exp_minus_one), RDDL_OF(std::expm1));
     expect_accuracy(-0.9f, 5, 0.51, RDDL_OF(ln_one_plus), RDDL_OF(std::log1p));
-    const auto cube_root = [](auto x) {
-        return power(x, decltype(x)(1.0f / 3.0f));
-    };
-    expect_accuracy(0, 100, 0.51, cube_root,
-                    [](double x) { return std::pow(x, double{1.0f / 3.0f}); });
+}
+
+// Powers of all floats with an exponent, and of a base with many exponents.
+TEST(FloatMath, HasPowersThatAreRoundedFromDoubles) {
+    for (const float exponent : {1.0f / 3.0f, 0.5f, 1.0f, 1.5f, -0.7f, 3.0f, -1.0f, 0.01f}) {
+        const auto power_of = [=](auto x) {
+            return power(x, decltype(x)(exponent));
+        };
+        const auto exact = [=](double x) {
+            return std::pow(x, double{exponent});
+        };
+        const bool grows = exponent > 0.0f;  // results stay within the floats, subnormal ones too
+        expect_accuracy(grows ? 1e-44f : 1e-20f, 1e12f, 0.51, power_of, exact, true);
+    }
+    for (const float base : {0.99999f, 1.00001f, 0.3f, 7.5f, 1e-40f}) {
+        const auto power_to = [=](auto x) {
+            return power(decltype(x)(base), x);
+        };
+        const float greatest = 85.0f / std::fabs(std::log(base));
+        expect_accuracy(-greatest, greatest, 0.51, power_to,
+                        [=](double x) { return std::pow(double{base}, x); });
+    }
 }
 
 // Angles up to 2^13 have a small absolute error, though zeros are not met to the last bit.
@@ -105,7 +125,21 @@ TEST(FloatMath, HasTheRareCases) {
     EXPECT_EQ(ln(1.0f), 0.0f);
     EXPECT_TRUE(std::signbit(sin(-0.0f)));
     EXPECT_EQ(power(-2.0f, 3.0f), -8.0f);
-    for (const float none : {exp(nan), ln(-1.0f), ln(nan), sin(infinity), cos(nan)})
+    for (const float base : {-infinity, -2.0f, -1.0f, -0.0f, 0.0f, 0.5f, 1.0f, 3.0f, infinity, nan})
+        for (const float exponent : {-infinity, -3.0f, -2.0f, -0.5f, 0.0f, 0.5f, 1.0f, 2.0f, 3.0f,
+                                     100.0f, 1e30f, infinity, nan}) {
+            const float found = power(base, exponent);
+            const auto expected = to_float(power(double{base}, double{exponent}));
+            EXPECT_TRUE(found == expected || (std::isnan(found) && std::isnan(expected)))
+                << base << " " << exponent;
+            EXPECT_TRUE(std::isnan(found) || std::signbit(found) == std::signbit(expected))
+                << base << " " << exponent;
+        }
+    EXPECT_TRUE(std::signbit(tan(-0.0f)));
+    EXPECT_TRUE(std::signbit(atan(-0.0f)));
+    EXPECT_EQ(atan(-infinity), to_float(std::atan(-double{infinity})));
+    for (const float none : {exp(nan), ln(-1.0f), ln(nan), sin(infinity), cos(nan), tan(infinity),
+                             tan(nan), atan(nan)})
         EXPECT_TRUE(std::isnan(none));
 }
 

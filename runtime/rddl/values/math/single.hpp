@@ -1,6 +1,6 @@
 // The functions of floats (binary32). The frequent ones have kernels of their own, after S.
-// Moshier's Cephes library; the others are those of doubles, rounded, so nearly always the nearest
-// float. Alone and in packs they give the same bits.
+// Moshier's Cephes library; doubles compute the others, which are then rounded, so nearly always
+// the nearest float. Alone and in packs they give the same bits.
 #pragma once
 
 #include <rddl/lanes/real.hpp>
@@ -12,6 +12,7 @@
 #include <rddl/values/math/parts.hpp>
 #include <rddl/values/math/power.hpp>
 #include <rddl/values/math/remainder.hpp>
+#include <rddl/values/math/single_by_doubles.hpp>
 #include <rddl/values/math/trigonometric.hpp>
 
 #include <cstdint>
@@ -144,7 +145,17 @@ R power(R base, R exponent) {
     const R square = base * base;
     const auto squares = exponent == 2.0f;  // by far the most frequent
     if (!any(!squares)) return square;
-    return select(squares, square, to_float(power(to_double(base), to_double(exponent))));
+    const auto result = detail::single::any_power(to_double(base), to_double(exponent));
+    return select(squares, square, to_float(result));
+}
+
+template <FloatLanes R>
+R tan(R a) {
+    return to_float(detail::single::tangent(to_double(a)));
+}
+template <FloatLanes R>
+R atan(R a) {
+    return to_float(detail::single::arc_tangent(to_double(a)));
 }
 
 // -------------------------------------------------------------------------- the others
@@ -156,10 +167,8 @@ R power(R base, R exponent) {
     }
 RDDL_OF_FLOATS(exp_minus_one)
 RDDL_OF_FLOATS(ln_one_plus)
-RDDL_OF_FLOATS(tan)
 RDDL_OF_FLOATS(asin)
 RDDL_OF_FLOATS(acos)
-RDDL_OF_FLOATS(atan)
 RDDL_OF_FLOATS(sinh)
 RDDL_OF_FLOATS(cosh)
 RDDL_OF_FLOATS(tanh)
