@@ -140,11 +140,14 @@ R cos(R a) {
                                              [](auto x) { return cos(x); });
 }
 
+// As that of doubles, with the same frequent exponents.
 template <FloatLanes R>
 R power(R base, R exponent) {
     const R square = base * base;
-    const auto squares = exponent == 2.0f;  // by far the most frequent
+    const auto squares = exponent == 2.0f;
     if (!any(!squares)) return square;
+    if (!any(!(exponent == 1.0f))) return base;
+    if (!any(!(exponent == 0.5f))) return to_float(detail::root_power(to_double(base)));
     const auto result = detail::single::any_power(to_double(base), to_double(exponent));
     return select(squares, square, to_float(result));
 }
