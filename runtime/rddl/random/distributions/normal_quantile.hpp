@@ -200,16 +200,22 @@ R normal_quantile(R p) {
     const R q = p - 0.5f;
     const auto central = absolute(q) <= 0.425f;
     const R s = 0.180625f - q * q;
-    const R near = q * detail::polynomial(centre_over, s) / detail::polynomial(centre_under, s);
-    if (!any(!central)) return near;
-    const R r = sqrt(-ln(select(q < 0.0f, p, 1.0f - p)));
-    R tail = detail::polynomial(tail_over, r - 1.6f) / detail::polynomial(tail_under, r - 1.6f);
+    const detail::Fraction<R> near{q * detail::polynomial(centre_over, s),
+                                   detail::polynomial(centre_under, s)};
+    if (!any(!central)) return near.dividend / near.divisor;
+    const R tail_of_p = select(q < 0.0f, p, 1.0f - p);
+    const R r = sqrt(-detail::single::ln_of_positive(tail_of_p));
+    detail::Fraction<R> tail{detail::polynomial(tail_over, r - 1.6f),
+                             detail::polynomial(tail_under, r - 1.6f)};
     const auto far = r > 5.0f;
-    if (any(far))
-        tail = select(
-            far, detail::polynomial(far_over, r - 5.0f) / detail::polynomial(far_under, r - 5.0f),
-            tail);
-    return select(central, near, select(q < 0.0f, -tail, tail));
+    if (any(far)) {
+        const detail::Fraction<R> far_tail{detail::polynomial(far_over, r - 5.0f),
+                                           detail::polynomial(far_under, r - 5.0f)};
+        tail = select_fraction(far, far_tail, tail);
+    }
+    tail.dividend = select(q < 0.0f, -tail.dividend, tail.dividend);
+    const detail::Fraction<R> result = select_fraction(central, near, tail);
+    return result.dividend / result.divisor;
 }
 
 }  // namespace rddl
