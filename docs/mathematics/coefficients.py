@@ -1,12 +1,18 @@
 """Derives the polynomials of runtime/rddl/values/math/*.hpp. Needs mpmath.
 
 Weighted least squares at Chebyshev points, which is minimax up to a fraction of a bit. A coefficient
-is rounded to double, the lowest first; those above it are then derived again and make up for it.
+is rounded to double, or to float, the lowest first; those above it are then derived again and make up for it.
 Prints them, lowest first, and the greatest weighted error that is left.
 """
+import struct
+
 import mpmath as mp
 
 mp.mp.dps = 60
+
+
+def to_float(c):
+    return struct.unpack("f", struct.pack("f", float(c)))[0]
 
 
 def fit(points, targets, weights, first, count):
@@ -17,7 +23,7 @@ def fit(points, targets, weights, first, count):
     return list(mp.lu_solve(a.T * a, a.T * b))
 
 
-def show(name, target, weight, low, high, count, exact=()):
+def show(name, target, weight, low, high, count, exact=(), rounded=float):
     """The error is weight(x) (p(x) - target(x)) on [low, high]."""
     middle, radius = (low + high) / 2, (high - low) / 2
     points = [middle - radius * mp.cos(mp.pi * (i + mp.mpf(1) / 2) / 200) for i in range(200)]
@@ -26,7 +32,7 @@ def show(name, target, weight, low, high, count, exact=()):
     coefficients = []
     for done in range(count):
         c = exact[done] if done < len(exact) else fit(points, rest, weights, done, count - done)[0]
-        coefficients.append(float(c))
+        coefficients.append(rounded(c))
         rest = [t - coefficients[done] * x**done for x, t in zip(points, rest)]
     error = max(abs(w * t) for w, t in zip(weights, rest))
     print(f"{name}: error 2^{float(mp.log(error, 2)):.1f}")
@@ -70,6 +76,23 @@ show("log 2, floats", lambda z: 2 * mp.atanh(mp.sqrt(z)) / mp.sqrt(z) / mp.log(2
 # 2^g = 1 + g p(g); the error is relative to 2^g.
 end = mp.mpf(1) / 2 * margin
 show("exp 2, floats", lambda g: (mp.mpf(2)**g - 1) / g, lambda g: g / mp.mpf(2)**g, -end, end, 7)
+
+
+def normal_quantile_over_q(w):
+    """The normal quantile of p divided by q = p - 1/2, for w = -ln(4 p (1 - p))."""
+    x = mp.sqrt(-mp.expm1(-w))  # 2 q
+    rest = mp.exp(-w) / (1 + x)  # 1 - x
+    z = mp.findroot(lambda z: mp.log(mp.erfc(z)) - mp.log(rest), mp.erfinv(min(x, mp.mpf("0.99999"))))
+    return 2 * mp.sqrt(2) * z / x
+
+
+# Normal quantiles of floats, up to w = 5 and up to 16.
+show("quantile, floats", lambda t: normal_quantile_over_q(t + mp.mpf("2.5")),
+     lambda t: 1 / normal_quantile_over_q(t + mp.mpf("2.5")), mp.mpf("-2.5"), mp.mpf("2.5"), 10,
+     rounded=to_float)
+show("quantile's tail, floats", lambda t: normal_quantile_over_q((t + 3) ** 2),
+     lambda t: 1 / normal_quantile_over_q((t + 3) ** 2), mp.sqrt(5) - 3, mp.mpf(1), 9,
+     rounded=to_float)
 
 
 def show_constant(name, value, bits):

@@ -63,7 +63,7 @@ TEST(FloatMath, IsAccurate) {
     expect_accuracy(1e-30f, 3, 1.7, RDDL_OF(sin), RDDL_OF(std::sin), true);
     expect_accuracy(-1.5f, 1.5f, 1.7, RDDL_OF(cos), RDDL_OF(std::cos));
     expect_accuracy(9000, 1e6, 0.51, RDDL_OF(sin), RDDL_OF(std::sin));
-    expect_accuracy(1e-30f, 0.9999999f, 7, RDDL_OF(normal_quantile), RDDL_OF(normal_quantile),
+    expect_accuracy(1e-44f, 0.9999999f, 5, RDDL_OF(normal_quantile), RDDL_OF(normal_quantile),
                     true);
 }
 

@@ -184,38 +184,38 @@ template <int most, int n>
                                   next, packs[i].part[p]);
 }
 
-// PPND7 of the same article; relative error about 1e-7.
+namespace detail::single {
+
+// The quantile of p is (p - 1/2) f(w) with w = -ln(4 p (1 - p)), as in M. Giles, "Approximating the
+// erfinv function", GPU Computing Gems, Jade Edition (2011), 109-116. f is a polynomial of w - 2.5
+// up to 5, up to 2^-25 of it, and then one of sqrt(w) - 3 up to 16, up to 2^-23. From
+// docs/mathematics/coefficients.py.
+inline constexpr float quantile_coefficients[] = {
+    4.24662685f,      0.697604001f,     -0.0118152145f,  -0.00354314223f, 0.00061744533f,
+    -1.41200553e-05f, -9.76722094e-06f, 1.33559411e-06f, 6.38129336e-08f, -2.60635673e-08f,
+};
+inline constexpr float quantile_tail_coefficients[] = {
+    8.01286888f,    2.83316231f,    0.0266952235f,   -0.021561075f,    0.0162424147f,
+    -0.0103854388f, 0.00380171859f, 0.000281551183f, -0.000557466527f,
+};
+
+}  // namespace detail::single
+
+// p in (0, 1). Uniform floats are at least 2^-24 away from 0 and 1, so w is at most 15.3.
 template <FloatLanes R>
 R normal_quantile(R p) {
-    constexpr float centre_over[] = {3.3871327179e0f, 5.0434271938e1f, 1.5929113202e2f,
-                                     5.9109374720e1f};
-    constexpr float centre_under[] = {1.0f, 1.7895169469e1f, 7.8757757664e1f, 6.7187563600e1f};
-    constexpr float tail_over[] = {1.4234372777e0f, 2.7568153900e0f, 1.3067284816e0f,
-                                   1.7023821103e-1f};
-    constexpr float tail_under[] = {1.0f, 7.3700164250e-1f, 1.2021132975e-1f};
-    constexpr float far_over[] = {6.6579051150e0f, 3.0812263860e0f, 4.2868294337e-1f,
-                                  1.7337203997e-2f};
-    constexpr float far_under[] = {1.0f, 2.4197894225e-1f, 1.2258202635e-2f};
-
     const R q = p - 0.5f;
-    const auto central = absolute(q) <= 0.425f;
-    const R s = 0.180625f - q * q;
-    const detail::Fraction<R> near{q * detail::polynomial(centre_over, s),
-                                   detail::polynomial(centre_under, s)};
-    if (!any(!central)) return near.dividend / near.divisor;
-    const R tail_of_p = select(q < 0.0f, p, 1.0f - p);
-    const R r = sqrt(-detail::single::ln_of_positive(tail_of_p));
-    detail::Fraction<R> tail{detail::polynomial(tail_over, r - 1.6f),
-                             detail::polynomial(tail_under, r - 1.6f)};
-    const auto far = r > 5.0f;
-    if (any(far)) {
-        const detail::Fraction<R> far_tail{detail::polynomial(far_over, r - 5.0f),
-                                           detail::polynomial(far_under, r - 5.0f)};
-        tail = select_fraction(far, far_tail, tail);
-    }
-    tail.dividend = select(q < 0.0f, -tail.dividend, tail.dividend);
-    const detail::Fraction<R> result = select_fraction(central, near, tail);
-    return result.dividend / result.divisor;
+    // This is no logarithm of a subnormal number, but less than -16 there all the same.
+    const R w = -detail::single::ln_of_normal(4.0f * p * (1.0f - p), R{127.0f});
+    const R quantile = q * detail::polynomial(detail::single::quantile_coefficients, w - 2.5f);
+    const auto in_tail = w > 5.0f;  // one of 300
+    if (!any(in_tail)) return quantile;
+    const R root = sqrt(w);
+    const R tail = q * detail::polynomial(detail::single::quantile_tail_coefficients, root - 3.0f);
+    const R result = select(in_tail, tail, quantile);
+    const auto far = w > 16.0f;
+    if (!any(far)) return result;
+    return select(far, to_float(normal_quantile(to_double(p))), result);
 }
 
 }  // namespace rddl

@@ -124,11 +124,18 @@ RDDL_ALWAYS_INLINE R polynomial_part(const Number (&coefficients)[n],
 // The coefficients are those of 1, x, x^2, ...
 template <class Number, class R, std::size_t n>
 RDDL_ALWAYS_INLINE R polynomial(const Number (&coefficients)[n], R x) {
-    static_assert(n <= 16);
+    static_assert(n <= (FloatLanes<R> ? 12 : 16));
     const R square = x * x;
     const R fourth = square * square;
-    const R powers[] = {x, square, fourth, fourth * fourth};
-    return polynomial_part<0, n>(coefficients, powers);
+    if constexpr (FloatLanes<R> && n > 8) {
+        // No eighth power, which is subnormal for floats below 2e-5: that takes a hundred cycles.
+        const R powers[] = {x, square, fourth};
+        return polynomial_part<0, 4>(coefficients, powers) +
+               polynomial_part<4, n - 4>(coefficients, powers) * fourth;
+    } else {
+        const R powers[] = {x, square, fourth, fourth * fourth};
+        return polynomial_part<0, n>(coefficients, powers);
+    }
 }
 
 }  // namespace rddl::detail

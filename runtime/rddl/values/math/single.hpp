@@ -51,19 +51,25 @@ inline constexpr float ln_coefficients[] = {3.3333331174e-1f,  -2.4999993993e-1f
                                             -1.6668057665e-1f, 1.4249322787e-1f,  -1.2420140846e-1f,
                                             1.1676998740e-1f,  -1.1514610310e-1f, 7.0376836292e-2f};
 
-// Requires a positive, finite a.
+// ln(a 2^(127 - bias)), for positive, finite a that are not subnormal.
 template <class R>
-RDDL_ALWAYS_INLINE R ln_of_positive(R a) {
+RDDL_ALWAYS_INLINE R ln_of_normal(R a, R bias) {
     constexpr std::uint32_t least_significand = bits_of(0.70710678f);
-    const auto subnormal = a < 0x1p-126f;
-    const R normal = select(subnormal, a * 0x1p24f, a);
-    const auto bits = bits_of(normal) + (bits_of(1.0f) - least_significand);
+    const auto bits = bits_of(a) + (bits_of(1.0f) - least_significand);
     const R biased_exponent = real_of_bits((bits >> 23) | bits_of(0x1p23f)) - 0x1p23f;
-    const R exponent = biased_exponent - select(subnormal, R{127.0f + 24.0f}, R{127.0f});
+    const R exponent = biased_exponent - bias;
     const R f = real_of_bits((bits & std::uint32_t{0x007F'FFFF}) + least_significand) - 1.0f;
     const R square = f * f;
     const R small = f * square * polynomial(ln_coefficients, f) + exponent * ln_2_low;
     return exponent * ln_2_high + (f + (small - 0.5f * square));
+}
+
+// Requires a positive, finite a.
+template <class R>
+RDDL_ALWAYS_INLINE R ln_of_positive(R a) {
+    const auto subnormal = a < 0x1p-126f;
+    return ln_of_normal(select(subnormal, a * 0x1p24f, a),
+                        select(subnormal, R{127.0f + 24.0f}, R{127.0f}));
 }
 
 // Their sum is pi / 2; products of the first two with 13 bits are exact. Greater angles are left to
