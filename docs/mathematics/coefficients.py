@@ -105,7 +105,7 @@ def show_constant(name, value, bits):
 
 
 show_constant("ln 2", mp.log(2), [42, 53])
-show_constant("pi / 2", mp.pi / 2, [33, 33, 33, 53])
+show_constant("pi / 2", mp.pi / 2, [29, 29, 29, 53])
 show_constant("1 / ln 2", 1 / mp.log(2), [53])
 show_constant("2 / pi", 2 / mp.pi, [53])
 show_constant("pi / 2", mp.pi / 2, [53, 53])

@@ -17,6 +17,7 @@
 // float and packs of it have the same with binary32, std::uint32_t and floats, and
 //
 //     to_double, to_float           between both, lane by lane
+//     lower_halves                  the last 32 bits of unsigned integers of 64 bits
 #pragma once
 
 #include <bit>
@@ -53,6 +54,9 @@ constexpr double to_double(float a) {
 }
 constexpr float to_float(double a) {
     return static_cast<float>(a);
+}
+constexpr std::uint32_t lower_halves(std::uint64_t bits) {
+    return static_cast<std::uint32_t>(bits);
 }
 
 // The same number, which the C++ compiler does not know: functions of numbers that it knows are

@@ -81,13 +81,13 @@ template <int n>
 RDDL_INLINE Lanes<float, n> sines_and_cosines(const Lanes<float, n>& a, Mask<n> is_sine) {
     using Word = Lanes<std::uint32_t, n>;
     const Word quarters = bits_of(select(is_sine, 0.0f, real_of_bits(std::uint32_t{1})));
-    const auto result = single::sine(a, quarters);
+    const auto result = single::sine(single::near_circle(a), quarters);
     return select(is_sine && absolute(a) < 0x1p-12f, a, result);
 }
 
 template <class R>
 inline constexpr R greatest_in_lanes =
-    std::is_same_v<R, float> ? R{single::greatest_angle} : R{greatest_angle};
+    std::is_same_v<R, float> ? R{single::greatest_near_angle} : R{greatest_angle};
 
 template <class Real, std::size_t count, class... Functions>
 RDDL_INLINE void evaluate_one_by_one(std::array<Real, count>& values,

@@ -295,9 +295,6 @@ RDDL_INLINE Lanes<std::uint64_t, n> upper_halves(const Lanes<std::uint64_t, n>& 
     return Lanes<std::uint64_t, n>::each(
         [](auto x) RDDL_INLINE_LAMBDA { return simd::upper_halves(x); }, a);
 }
-constexpr std::uint32_t lower_halves(std::uint64_t a) {
-    return static_cast<std::uint32_t>(a);
-}
 template <int n>
 RDDL_INLINE Lanes<std::uint32_t, n> lower_halves(const Lanes<std::uint64_t, n>& a) {
     Lanes<std::uint32_t, n> result;

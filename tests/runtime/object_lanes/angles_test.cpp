@@ -35,6 +35,8 @@ TEST(Angles, HaveTheBitsOfThoseComputedAlone) {
     expect_those_computed_alone<5>({0x1p-27, 1.5707963267948966, 3.1, -4.7, 0x1p20});
     expect_those_computed_alone<3>({0.5, infinity, 1.0});
     expect_those_computed_alone<6>({1e-300, -1e300, 0x1.000002p20, 12.0, -77.5, 2.0});
+    expect_those_computed_alone<4>({0x1p24, 3.0, -0x1.8p22, -0x1p24});
+    expect_those_computed_alone<3>({0x1.000002p24, 3.0, 0.1});
     std::array<double, 8> angles;
     for (int first = 0; first < 200; ++first) {
         for (std::size_t k = 0; k < angles.size(); ++k)
@@ -47,6 +49,8 @@ TEST(Angles, HaveTheBitsOfFloatsComputedAlone) {
     expect_those_computed_alone<4, float>({0.0f, -0.0f, 0x1p-13f, -0x1p-12f});
     expect_those_computed_alone<5, float>({1.57079633f, 3.1f, -4.7f, 0x1p13f, -8000.0f});
     expect_those_computed_alone<3, float>({0.5f, 0x1.02p13f, 1.0f});
+    expect_those_computed_alone<4, float>({0x1p24f, 3.0f, -1e6f, 0x1p-20f});
+    expect_those_computed_alone<3, float>({0x1.000002p24f, 3.0f, 1e4f});
     std::array<float, 8> angles;
     for (int first = 0; first < 200; ++first) {
         for (std::size_t k = 0; k < angles.size(); ++k)

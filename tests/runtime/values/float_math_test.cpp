@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <cstdlib>
 #include <limits>
 
 namespace rddl {
@@ -62,7 +63,10 @@ TEST(FloatMath, IsAccurate) {
     expect_accuracy(-3, 3, 1.7, RDDL_OF(sin), RDDL_OF(std::sin));
     expect_accuracy(1e-30f, 3, 1.7, RDDL_OF(sin), RDDL_OF(std::sin), true);
     expect_accuracy(-1.5f, 1.5f, 1.7, RDDL_OF(cos), RDDL_OF(std::cos));
-    expect_accuracy(9000, 1e6, 0.51, RDDL_OF(sin), RDDL_OF(std::sin));
+    for (const float farthest : {1e6f, 0x1p24f, 0x1p26f}) {
+        expect_accuracy(9000, farthest, 0.51, RDDL_OF(sin), RDDL_OF(std::sin));
+        expect_accuracy(9000, farthest, 0.51, RDDL_OF(cos), RDDL_OF(std::cos));
+    }
     expect_accuracy(1e-44f, 0.9999999f, 5, RDDL_OF(normal_quantile), RDDL_OF(normal_quantile),
                     true);
 }
@@ -70,7 +74,7 @@ TEST(FloatMath, IsAccurate) {
 TEST(FloatMath, IsRoundedFromDoubles) {
     expect_accuracy(-1.5f, 1.5f, 0.51, RDDL_OF(tan), RDDL_OF(std::tan));
     expect_accuracy(1e-44f, 1e30f, 0.51, RDDL_OF(tan), RDDL_OF(std::tan), true);
-    expect_accuracy(0, 0x1.1p20f, 0.51, RDDL_OF(tan), RDDL_OF(std::tan));
+    expect_accuracy(0, 0x1.1p24f, 0.51, RDDL_OF(tan), RDDL_OF(std::tan));
     expect_accuracy(-1, 1, 0.51, RDDL_OF(asin), RDDL_OF(std::asin));
     expect_accuracy(-1, 1, 0.51, RDDL_OF(acos), RDDL_OF(std::acos));
     expect_accuracy(-30, 30, 0.51, RDDL_OF(atan), RDDL_OF(std::atan));
@@ -109,6 +113,47 @@ TEST(FloatMath, TurnsFarAngles) {
     for (float angle = -8192; angle < 8192; angle += 0.37f) {
         EXPECT_NEAR(sin(angle), std::sin(double{angle}), 1.2e-7) << angle;
         EXPECT_NEAR(cos(angle), std::cos(double{angle}), 1.2e-7) << angle;
+    }
+}
+
+// Sines beyond 2^13 are those of doubles, rounded, although doubles take more care.
+// RDDL_MATH_FLOATS=1 compares all floats; otherwise, each so many-th is compared.
+TEST(FloatMath, HasTheSinesOfDoublesBeyond) {
+    const char* const text = std::getenv("RDDL_MATH_FLOATS");
+    const std::uint32_t step = text ? static_cast<std::uint32_t>(std::atoi(text)) : 997;
+    std::uint32_t next = bits_of(0x1p13f) + 1;
+    while (next <= bits_of(0x1p25f)) {
+        Floats angles;
+        for (int lane = 0; lane < width; ++lane, next += step)
+            angles.set(lane, real_of_bits(next) * (lane % 2 == 0 ? 1.0f : -1.0f));
+        const Floats sines = sin(angles), cosines = cos(angles);
+        for (int lane = 0; lane < width; ++lane) {
+            const float a = angles[lane];
+            ASSERT_EQ(sines[lane], to_float(sin(to_double(a)))) << a;
+            ASSERT_EQ(cosines[lane], to_float(cos(to_double(a)))) << a;
+        }
+    }
+}
+
+// Near and far angles, those of the C library and none stand side by side.
+TEST(FloatMath, HasTheSameSinesInAnyLanes) {
+    constexpr float nan = std::numeric_limits<float>::quiet_NaN();
+    const std::array<float, width> values = {
+        0.0f,  -0.0f,     0x1p-13f,  0x1p13f, -0x1.000002p13f, 9e3f,
+        -1e6f, 0x1p24f,   -0x1p24f,  3e7f,    0x1.000002p24f,  infinity,
+        nan,   -infinity, 0x1p-149f, 3e38f,
+    };
+    const Floats angles = Floats::load(values.data());
+    const Floats sines = sin(angles), cosines = cos(angles);
+    for (int lane = 0; lane < width; ++lane) {
+        const float s = sin(angles[lane]), c = cos(angles[lane]);
+        if (std::isfinite(angles[lane])) {
+            EXPECT_EQ(bits_of(sines[lane]), bits_of(s)) << angles[lane];
+            EXPECT_EQ(bits_of(cosines[lane]), bits_of(c)) << angles[lane];
+        } else {
+            EXPECT_TRUE(std::isnan(sines[lane]) && std::isnan(s)) << angles[lane];
+            EXPECT_TRUE(std::isnan(cosines[lane]) && std::isnan(c)) << angles[lane];
+        }
     }
 }
 

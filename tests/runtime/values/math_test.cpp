@@ -53,9 +53,9 @@ const Function functions[] = {
     {"exp_minus_one", exp_minus_one, exp_minus_one, std::expm1, 1.3, {{-1, 1}, {-45, 710}}},
     {"ln", ln, ln, std::log, 0.9, {{0.5, 2}, {0.99, 1.01}, {0, 1e5}}},
     {"ln_one_plus", ln_one_plus, ln_one_plus, std::log1p, 0.9, {{-1, 2}, {-1e-3, 1e-3}, {0, 1e5}}},
-    {"sin", sin, sin, std::sin, 1.0, {{-1, 1}, {-20, 20}, {-0x1p20, 0x1p20}}},
-    {"cos", cos, cos, std::cos, 0.9, {{-1, 1}, {-20, 20}, {-0x1p20, 0x1p20}}},
-    {"tan", tan, tan, std::tan, 1.2, {{-1, 1}, {-20, 20}, {-0x1p20, 0x1p20}}},
+    {"sin", sin, sin, std::sin, 1.0, {{-1, 1}, {-20, 20}, {-0x1p20, 0x1p20}, {0x1p20, 0x1p24}}},
+    {"cos", cos, cos, std::cos, 1.0, {{-1, 1}, {-20, 20}, {-0x1p20, 0x1p20}, {0x1p20, 0x1p24}}},
+    {"tan", tan, tan, std::tan, 1.2, {{-1, 1}, {-20, 20}, {-0x1p20, 0x1p20}, {0x1p20, 0x1p24}}},
     {"asin", asin, asin, std::asin, 0.7, {{-1, 1}}},
     {"acos", acos, acos, std::acos, 0.7, {{-1, 1}}},
     {"atan", atan, atan, std::atan, 0.8, {{-1, 1}, {-10, 10}}},
@@ -94,9 +94,10 @@ std::vector<double> special_arguments() {
         // clang-format off
         0.0, 0x1p-1074, 0x1.8p-1060, 0x1p-1022, 1e-300, 0x1p-54, 0x1p-53, 0x1p-28, 0x1p-27, 1e-5,
         0.1, 1.0 / 3.0, 0.4142, 0.5, 0.7, 1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 22.0, 37.5, 40.0,
-        709.0, 709.7827, 709.79, 710.0, 745.0, 745.14, 750.0, 1e4, 0x1p20, 1e7,
+        709.0, 709.7827, 709.79, 710.0, 745.0, 745.14, 750.0, 1e4, 0x1p20, 1e7, 0x1p24,
         0x1p51, 0x1p52 - 0.5, 0x1p52, 0x1p53 - 1, 0x1p53, 1e22, 1e100, 1e300,
         std::numbers::pi, std::numbers::pi / 2, std::numbers::pi / 4, std::numbers::ln2,
+        0x1.6c6cbc45dc8dep5,  // within 2^-60 of a multiple of pi / 2, as no other up to 2^24
         std::numbers::sqrt2, detail::greatest_real, infinity, nan,
         // clang-format on
     };
@@ -174,6 +175,20 @@ TEST(Accuracy, HoldsForArgumentsOfAllSizes) {
             const double a = std::bit_cast<double>(random());
             return error_in_ulps(f.scalar(a), f.exact(a));
         });
+}
+
+// Next to the zeros of the sine and of the cosine, and the poles of the tangent.
+TEST(Accuracy, HoldsNearMultiplesOfARightAngle) {
+    Random random(12);
+    for (const Function& f : functions) {
+        if (f.name != "sin" && f.name != "cos" && f.name != "tan") continue;
+        expect_errors_below(f.bound, f.name + " near multiples of pi / 2", [&](int) {
+            const double right_angles = std::floor(between(random, 1.0, 0x1p23));
+            const double near = right_angles * (std::numbers::pi / 2);
+            const double a = std::bit_cast<double>(bits_of(near) + random() % 9 - 4);
+            return error_in_ulps(f.scalar(a), f.exact(a));
+        });
+    }
 }
 
 // A power of a base of any size (or near 1), with the logarithm between the limits.

@@ -72,12 +72,11 @@ RDDL_ALWAYS_INLINE R ln_of_positive(R a) {
                         select(subnormal, R{127.0f + 24.0f}, R{127.0f}));
 }
 
-// Their sum is pi / 2; products of the first two with 13 bits are exact. Greater angles are left to
-// the functions of doubles.
+// Their sum is pi / 2; products of the first two with 13 bits are exact.
 inline constexpr float half_pi_parts[] = {1.5703125f, 4.837512969970703125e-4f,
                                           7.54978995489188216e-8f};
 inline constexpr float two_over_pi = 0.636619772367581f;
-inline constexpr float greatest_angle = 0x1p13f;
+inline constexpr float greatest_near_angle = 0x1p13f;
 
 // sin r = r + r z p(z) and cos r = 1 - z / 2 + z^2 p(z) with z = r^2, for |r| <= pi / 4.
 inline constexpr float sin_coefficients[] = {-1.6666654611e-1f, 8.3321608736e-3f,
@@ -85,29 +84,70 @@ inline constexpr float sin_coefficients[] = {-1.6666654611e-1f, 8.3321608736e-3f
 inline constexpr float cos_coefficients[] = {4.166664568298827e-2f, -1.388731625493765e-3f,
                                              2.443315711809948e-5f};
 
-// The sine of `a` and `quarters` right angles, an unsigned int or one in each lane, for |a| <=
-// greatest_angle.
-template <class R, class Quarters>
-RDDL_ALWAYS_INLINE R sine(R a, Quarters quarters) {
+// The sine and the cosine of what remains of an angle without the whole quadrants, the number of
+// which stands in the last bits of `quadrants`.
+template <class R>
+struct Circle {
+    R sine;
+    R cosine;
+    R quadrants;
+};
+
+// Requires |a| <= greatest_near_angle.
+template <class R>
+RDDL_ALWAYS_INLINE Circle<R> near_circle(R a) {
     const R rounded = a * two_over_pi + rounder;
     const R quadrants = rounded - rounder;
     const R r = ((a - quadrants * half_pi_parts[0]) - quadrants * half_pi_parts[1]) -
                 quadrants * half_pi_parts[2];
     const R z = r * r;
-    const auto s = bits_of(r + r * (z * polynomial(sin_coefficients, z)));
-    const auto c = bits_of((1.0f - 0.5f * z) + z * z * polynomial(cos_coefficients, z));
-    const auto turns = bits_of(rounded) + quarters;
+    return {r + r * (z * polynomial(sin_coefficients, z)),
+            (1.0f - 0.5f * z) + z * z * polynomial(cos_coefficients, z), rounded};
+}
+
+// Requires |a| <= detail::greatest_angle. These are the functions of doubles, rounded, without what
+// those do for the last two bits of a double: floats have 29 bits less.
+template <class R>
+RDDL_ALWAYS_INLINE Circle<R> far_circle(R a) {
+    const auto angle = to_double(a);
+    const auto rounded = angle * detail::two_over_pi + detail::rounder;
+    const auto quadrants = rounded - detail::rounder;
+    const auto r = (angle - quadrants * detail::half_pi_parts[0]) - quadrants * half_pi_rest;
+    const auto z = r * r;
+    return {to_float(r + r * (z * polynomial(detail::sin_coefficients, z))),
+            to_float((1.0 - 0.5 * z) + z * z * polynomial(detail::cos_coefficients, z)),
+            real_of_bits(lower_halves(bits_of(rounded)))};
+}
+
+// Requires |a| <= detail::greatest_angle.
+template <class R>
+RDDL_ALWAYS_INLINE Circle<R> circle(R a) {
+    const Circle<R> near = near_circle(a);
+    const auto is_far = absolute(a) > greatest_near_angle;
+    if (!any(is_far)) return near;
+    const Circle<R> far = far_circle(a);
+    return {select(is_far, far.sine, near.sine), select(is_far, far.cosine, near.cosine),
+            select(is_far, far.quadrants, near.quadrants)};
+}
+
+// The sine of the angle and `quarters` right angles, an unsigned int or one in each lane.
+template <class R, class Quarters>
+RDDL_ALWAYS_INLINE R sine(const Circle<R>& circle, Quarters quarters) {
+    const auto s = bits_of(circle.sine);
+    const auto c = bits_of(circle.cosine);
+    const auto turns = bits_of(circle.quadrants) + quarters;
     using Bits = std::remove_const_t<decltype(turns)>;
     const Bits odd = Bits{std::uint32_t{0}} - (turns & std::uint32_t{1});
     const Bits sign = (turns << 30) & std::uint32_t{0x8000'0000};
     return real_of_bits((s ^ ((s ^ c) & odd)) ^ sign);
 }
 
-// `result` for angles that `sine` can reduce, else that of doubles.
+// `result` for angles that `circle` can reduce, else that of doubles.
 template <class R, class Function>
 RDDL_ALWAYS_INLINE R with_great_angles(R a, R result, Function function) {
-    const auto great = absolute(a) > greatest_angle;
-    if (!any(great)) return result;
+    const auto great = absolute(a) > float{detail::greatest_angle};
+    if (!any(great)) [[likely]]
+        return result;
     return select(great, to_float(function(to_double(a))), result);
 }
 
@@ -134,16 +174,18 @@ R ln(R a) {
     return select(ordinary, logarithm, select(a == 0.0f, R{-infinity}, of_infinity_or_nan));
 }
 
+// Inlined as those of doubles are: the sine and the cosine of an angle then share its circle.
 template <FloatLanes R>
-R sin(R a) {
-    const R result = detail::single::sine(a, std::uint32_t{0});
-    return detail::single::with_great_angles(a, select(absolute(a) < 0x1p-12f, a, result),
-                                             [](auto x) { return sin(x); });
+RDDL_ALWAYS_INLINE R sin(R a) {
+    using namespace detail::single;
+    const R result = sine(circle(a), std::uint32_t{0});
+    return with_great_angles(a, select(absolute(a) < 0x1p-12f, a, result),
+                             [](auto x) { return sin(x); });
 }
 template <FloatLanes R>
-R cos(R a) {
-    return detail::single::with_great_angles(a, detail::single::sine(a, std::uint32_t{1}),
-                                             [](auto x) { return cos(x); });
+RDDL_ALWAYS_INLINE R cos(R a) {
+    using namespace detail::single;
+    return with_great_angles(a, sine(circle(a), std::uint32_t{1}), [](auto x) { return cos(x); });
 }
 
 // As that of doubles, with the same frequent exponents.

@@ -38,9 +38,8 @@ inline constexpr double exp_2_coefficients[] = {
     0.0013334080147993901, 0.00015466930715835357, 1.5165794997842649e-05,
 };
 
-// pi / 2 in two parts. Products of the first with 20 bits are exact.
-inline constexpr double half_pi_high = 0x1.921fb544p0;
-inline constexpr double half_pi_low = 0x1.0b4611a626331p-34;
+// What the first part of pi / 2 for doubles leaves of it.
+inline constexpr double half_pi_rest = detail::half_pi_parts[1] + detail::half_pi_parts[2];
 
 // All of them are for doubles that are floats, alone or in packs.
 
@@ -48,7 +47,7 @@ template <class R>
 RDDL_ALWAYS_INLINE R tangent(R a) {
     const R rounded = a * detail::two_over_pi + detail::rounder;
     const R quadrants = rounded - detail::rounder;
-    const R r = (a - quadrants * half_pi_high) - quadrants * half_pi_low;
+    const R r = (a - quadrants * detail::half_pi_parts[0]) - quadrants * half_pi_rest;
     const R z = r * r;
     const R dividend = r * polynomial(tan_dividend, z), divisor = polynomial(tan_divisor, z);
     const auto turns = bits_of(rounded);

@@ -13,11 +13,11 @@ namespace rddl {
 namespace detail {
 
 inline constexpr double two_over_pi = 0x1.45f306dc9c883p-1;
-// Their sum is pi / 2. The first three have 33 bits, so that products with 20 bits are exact.
-inline constexpr double half_pi_parts[] = {0x1.921fb544p0, 0x1.0b4611a6p-34, 0x1.3198a2ep-69,
-                                           0x1.b839a252049c1p-104};
+// Their sum is pi / 2. The first three have 29 bits, so that products with 24 bits are exact.
+inline constexpr double half_pi_parts[] = {0x1.921fb54p0, 0x1.10b4612p-30, -0x1.676733bp-60,
+                                           0x1.701b839a25205p-92};
 // Greater arguments go to the C library.
-inline constexpr double greatest_angle = 0x1p20;
+inline constexpr double greatest_angle = 0x1p24;
 
 // sin r = r + r z p(z) and cos r = 1 - z / 2 + z^2 p(z) with z = r^2, for |r| <= pi / 4, up to
 // 2^-57 of sin r and 2^-64. From docs/mathematics/coefficients.py.
@@ -38,7 +38,8 @@ struct Angle {
 };
 
 // W. J. Cody, W. Waite, "Software manual for the elementary functions" (1980): subtracts the parts
-// of pi / 2 one by one. For |a| <= greatest_angle, so that no more than 60 bits can cancel.
+// of pi / 2 one by one. Of |a| <= greatest_angle at least 2^-61 remains, and the only product
+// that is rounded is below 2^-68.
 template <class R>
 RDDL_ALWAYS_INLINE Angle<R> angle(R a) {
     const R rounded = a * two_over_pi + rounder;
