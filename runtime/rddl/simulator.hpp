@@ -19,6 +19,7 @@
 #include <rddl/step/compiled.hpp>
 #include <rddl/values/bits.hpp>
 #include <rddl/values/context.hpp>
+#include <rddl/values/few_bits.hpp>
 #include <rddl/values/linear_algebra.hpp>
 #include <rddl/values/moderate.hpp>
 #include <rddl/values/narrow_bits.hpp>

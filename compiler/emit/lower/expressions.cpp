@@ -7,6 +7,7 @@
 #include "emit/lower/tables.hpp"
 #include "ir/action_bools.hpp"
 #include "ir/call.hpp"
+#include "ir/few_bits.hpp"
 #include "ir/row_of_bools.hpp"
 #include "support/match.hpp"
 
@@ -49,12 +50,12 @@ std::string Expressions::enter(ir::VariableId variable) {
     return variables_[variable] = scope_.claim(unit_.program[variable].name);
 }
 
-const Expressions::ObjectLanes& Expressions::enter(ir::Nest nest) {
+Expressions::ObjectNames Expressions::enter(ir::Nest nest) {
     std::string wish;
     for (const ir::VariableId variable : nest.variables)
         wish += (wish.empty() ? "" : "_") + unit_.program[variable].name;
     several_ = {std::move(nest), scope_.claim("several"), scope_.claim(wish)};
-    return *several_;
+    return {several_->context, several_->objects};
 }
 
 void Expressions::name(ir::NodeId id, const std::string& name) {
@@ -171,6 +172,7 @@ Expression Expressions::lower(const ir::Node& node, const ir::Convert& convert) 
 }
 
 Expression Expressions::lower(const ir::Node& node, const ir::Apply& apply) {
+    if (auto test = test_of_few_bits(apply)) return *std::move(test);
     const bool on_ints = unit_.program[apply.operands.front()].type == ir::Scalar::Int;
     const auto spelling = spelling_of(apply.op, on_ints);
     if (const auto* function = std::get_if<std::string>(&spelling))
@@ -179,6 +181,40 @@ Expression Expressions::lower(const ir::Node& node, const ir::Apply& apply) {
     if (apply.op == Operator::Implies)
         operands[0] = operation(plain_operator(Operator::Not), list(std::move(operands[0])));
     return operation(std::get<tree::Operator>(spelling), std::move(operands));
+}
+
+// "!rddl::has_any_of<ROW_BITS_>(bits, x)", "rddl::count_of<ROW_BITS_>(bits, x) == 1"
+std::optional<Expression> Expressions::test_of_few_bits(const ir::Apply& apply) {
+    if (!is_one_of(apply.op, {Operator::Equal, Operator::NotEqual})) return std::nullopt;
+    const ir::NodeId tested = apply.operands.front(), constant = apply.operands.back();
+    if (is_named(tested) || !is_int_constant(unit_.program[constant])) return std::nullopt;
+    const auto* count = std::get_if<ir::Apply>(&unit_.program[tested].form);
+    if (count && count->op == Operator::CountOnes) {
+        auto ones = of_few_bits("rddl::count_of<", count->operands.front());
+        if (!ones) return std::nullopt;
+        return operation(plain_operator(apply.op), list(*std::move(ones), lower(constant)));
+    }
+    const auto& limit = std::get<ir::Constant>(unit_.program[constant].form);
+    if (limit.value != ir::Value(std::int64_t{0})) return std::nullopt;
+    auto any = of_few_bits("rddl::has_any_of<", tested);
+    if (!any || apply.op == Operator::NotEqual) return any;
+    return operation(plain_operator(Operator::Not), list(*std::move(any)));
+}
+std::optional<Expression> Expressions::of_few_bits(const std::string& function, ir::NodeId joined) {
+    const auto few =
+        is_named(joined) ? std::nullopt : ir::few_bits(unit_.program, unit_.narrow_bits, joined);
+    if (!few) return std::nullopt;
+    const std::span<const ir::NodeId> row = few->ones->indices;
+    tree::Expressions arguments = {lower(few->bits)};
+    if (few->ones->gather == ir::Gather::Adjacent) {
+        several_->looks_at_few_bits = true;
+        arguments.push_back(word(several_->objects));
+        append(arguments, all_of(row.subspan(several_->nest.variables.size())));
+    } else {
+        for (const ir::NodeId id : row) arguments.push_back(index(id));
+    }
+    return tree::call(function + unit_.names.buffers[few->ones->buffer.index] + ">",
+                      std::move(arguments));
 }
 
 Expression Expressions::lower(const ir::Node&, const ir::Select& select) {

@@ -101,12 +101,13 @@ class Expressions {
     std::string enter(ir::VariableId variable);
     // From here on loops run over several objects at once; the names of their context and of the
     // objects. Ended by `leave_nest`.
-    struct ObjectLanes {
-        ir::Nest nest;
+    struct ObjectNames {
         std::string context, objects;
     };
-    const ObjectLanes& enter(ir::Nest nest);
+    ObjectNames enter(ir::Nest nest);
     bool is_over_several() const { return several_.has_value(); }
+    // Whether what has been lowered since then looks at few bits, of each object its own.
+    bool looks_at_few_bits() const { return several_->looks_at_few_bits; }
     void leave_nest() { several_.reset(); }
     // The arguments of draws and branches.
     std::string context() const { return several_ ? several_->context : "context"; }
@@ -147,6 +148,8 @@ class Expressions {
     tree::Expression lower(const ir::Node& node, const ir::Interval& interval);
     tree::Expression lower(const ir::Node& node, const ir::Fault& fault);
 
+    std::optional<tree::Expression> test_of_few_bits(const ir::Apply& apply);
+    std::optional<tree::Expression> of_few_bits(const std::string& function, ir::NodeId joined);
     tree::Expression inline_binder(const ir::Node& node);
     tree::Expression call(std::string_view function, const std::vector<ir::NodeId>& operands,
                           const std::optional<ir::Place>& place = {});
@@ -205,6 +208,11 @@ class Expressions {
     std::vector<Naming> namings_;  // to be undone, since copies of all names would be too many
     std::map<ir::VariableId, std::string> variables_;
     std::map<ir::LocalId, std::string> locals_;
+    struct ObjectLanes {
+        ir::Nest nest;
+        std::string context, objects;
+        bool looks_at_few_bits = false;
+    };
     std::optional<ObjectLanes> several_;
     Uses uses_;
     static constexpr std::size_t all_nodes = std::numeric_limits<std::size_t>::max();

@@ -29,6 +29,8 @@ constexpr std::size_t operator_and_brackets = 4;  // of an operand in a chain
 constexpr std::size_t assignment_width = 3;       // " = "
 // An expression with more calls with lambdas inside is taken to pieces first.
 constexpr std::size_t most_lambda_calls = 64;
+// rddl::for_few_objects takes so many.
+constexpr std::int64_t most_unrolled = 16;
 
 // The table that the only statement of a nest fills.
 ir::BufferId only_target(const ir::Nest& nest) {
@@ -214,6 +216,7 @@ void FunctionBody::statement(const ir::Loop& loop) {
 }
 
 // rddl::for_each_object<computer_count>(context, [&](auto& several, auto x) { ... });
+// rddl::for_few_objects<rod_count>(context, [&](auto& several, auto x) { ... });
 // rddl::for_affected_objects<cell_count>(context, state.at, at_affects_rows_, at_affects_, next.at,
 //                                        [&](auto& several, auto c) { ... });
 // rddl::for_chosen_objects<course_count>(context, action.take, state.passed, next.passed,
@@ -222,7 +225,8 @@ void FunctionBody::statement(const ir::Loop& loop) {
 // scratch.on_exists = rddl::exists_object<n>(context, [&](auto& several, auto x) { ... });
 void FunctionBody::over_several_objects(const ir::Loop& loop, bool is_from_start) {
     const auto before = expressions_.mark();
-    const auto [nest, context, objects] = expressions_.enter(ir::nest_of(loop));
+    const ir::Nest nest = ir::nest_of(loop);
+    const auto [context, objects] = expressions_.enter(nest);
     std::string count = expressions_.unit().size_of(program()[nest.variables[0]]);
     for (const ir::VariableId variable : std::span(nest.variables).subspan(1))
         count += " * " + expressions_.unit().size_of(program()[variable]);
@@ -243,6 +247,8 @@ void FunctionBody::over_several_objects(const ir::Loop& loop, bool is_from_start
         {tree::Declared{"auto", objects}}};
     tree::append(parameters, numbers);
     tree::Expression lambda{tree::Lambda{std::move(parameters), std::move(body)}};
+    const bool is_unrolled = expressions_.looks_at_few_bits() &&
+                             ir::combinations(program(), nest.variables) <= most_unrolled;
     expressions_.leave_nest();
     expressions_.return_to(before);
     if (loop.affected) {
@@ -272,8 +278,9 @@ void FunctionBody::over_several_objects(const ir::Loop& loop, bool is_from_start
                                      {expressions_.record(target), std::move(result)});
         statements_.push_back({tree::Assign{expressions_.target(target, {}), std::move(result)}});
     } else {
-        const std::string function =
-            loop.as_words ? "rddl::for_many_objects<" : "rddl::for_each_object<";
+        const std::string function = loop.as_words ? "rddl::for_many_objects<"
+                                     : is_unrolled ? "rddl::for_few_objects<"
+                                                   : "rddl::for_each_object<";
         statements_.push_back({tree::call(function + count + ">",
                                           tree::list(tree::word("context"), std::move(lambda)))});
     }
@@ -290,10 +297,10 @@ tree::Expression FunctionBody::or_move(const ir::Loop& loop, tree::Expression lo
     const ir::BufferId target = only_target(nest);
     const auto draw =
         ir::only_bernoulli(program(), ir::only_statement<ir::Store>(*nest.body)->value);
-    const auto entered = expressions_.enter(nest);
-    tree::Expression drawing{tree::Lambda{
-        {{tree::Declared{"auto&", entered.context}}, {tree::Declared{"auto", entered.objects}}},
-        inner(1, [&] { return_value(*draw); })}};
+    const auto [context, objects] = expressions_.enter(nest);
+    tree::Expression drawing{
+        tree::Lambda{{{tree::Declared{"auto&", context}}, {tree::Declared{"auto", objects}}},
+                     inner(1, [&] { return_value(*draw); })}};
     expressions_.leave_nest();
     expressions_.return_to(before);
     tree::Block otherwise;

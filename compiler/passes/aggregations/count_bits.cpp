@@ -375,7 +375,9 @@ class BitCounting {
         const ir::NodeId counting = known_word(nest, builder_.constant(true), true, word);
         const auto* all = std::get_if<ir::Constant>(&program_[counting].form);
         const bool all_count = all && all->value == ir::Value(whole_word(word));
-        if (all_count && is_zero_beyond_end(nest.condition, value)) return bits;
+        if (is_zero_where_none_counts(nest.condition, value) ||
+            (all_count && is_zero_beyond_end(nest.condition, value)))
+            return bits;
         return joined(Operator::BitAnd, bits, counting);
     }
 
@@ -392,6 +394,15 @@ class BitCounting {
         return joined(form.op, a, b);
     }
 
+    // Whether its words are 0 for elements that do not count, as those of known conditions are.
+    bool is_zero_where_none_counts(ir::NodeId id, bool value) const {
+        if (builder_.properties(id).uniform) return true;
+        if (std::holds_alternative<ir::Load>(program_[id].form)) return false;
+        const Connective form = connective(id, value);
+        const bool a = is_zero_where_none_counts(form.a.id, form.a.value);
+        const bool b = is_zero_where_none_counts(form.b.id, form.b.value);
+        return form.op == Operator::BitAnd ? a || b : a && b;
+    }
     // Whether its words are 0 where there are no elements.
     bool is_zero_beyond_end(ir::NodeId id, bool value) const {
         if (builder_.properties(id).uniform) return true;

@@ -343,6 +343,20 @@ RDDL_INLINE void for_each_object(Context<ScalarOf<R>>& context, Body&& body) {
     detail::for_each_of_several<objects_of_loop<count>, count>(context, body);
 }
 
+// The same for at most 16 objects whose bodies look at few bits (rddl/values/few_bits.hpp): in
+// packs, the places of these are known where the loop is unrolled.
+template <Index count, int n, class R, class Body>
+RDDL_INLINE void for_few_objects(Context<Pack<n, R>>& context, Body&& body) {
+#ifdef __GNUC__
+#pragma GCC unroll 16
+#endif
+    for (Index i = 0; i < count; ++i) body(context, OneObject{i});
+}
+template <Index count, class R, class Body>
+RDDL_INLINE void for_few_objects(Context<ScalarOf<R>>& context, Body&& body) {
+    for_each_object<count>(context, body);
+}
+
 // Whether body(context, object), which neither faults nor draws, holds for one object at least of
 // [0, count), or for all. One environment takes a register of reals at once, since masks of several
 // registers have to be joined.

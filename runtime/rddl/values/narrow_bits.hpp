@@ -15,16 +15,32 @@ namespace rddl {
 
 namespace detail {
 
-// Bits of 16 environments, each a T. What they meet must fit into T, so that the results are those
-// of 64 bits.
+// A register of 16 lanes, each a T.
 template <class T>
-struct NarrowBits {
+struct NarrowLanes {
     using Vector [[gnu::vector_size(16 * sizeof(T))]] = T;
-    Vector bits;
 };
-
 template <class T>
-RDDL_INLINE Lanes<std::int64_t, 16> wide(const NarrowBits<T>& narrow) {
+using NarrowVector = typename NarrowLanes<T>::Vector;
+
+// Bits of 16 environments, each a T. What they meet must fit into T, so that the results are those
+// of 64 bits. `masks(i)` is where bit i is 1, of the masks that were joined.
+template <class T, class Masks>
+struct NarrowBits {
+    NarrowVector<T> bits;
+    Masks masks;
+};
+template <class T, class Masks>
+RDDL_INLINE NarrowBits<T, Masks> narrow(const NarrowVector<T>& bits, const Masks& masks) {
+    return {bits, masks};
+}
+// Bit i of an int, for all environments.
+RDDL_INLINE Mask<16> mask_of_bit(std::int64_t bits, int i) {
+    return Mask<16>((bits >> i & 1) != 0);
+}
+
+template <class T, class Masks>
+RDDL_INLINE Lanes<std::int64_t, 16> wide(const NarrowBits<T, Masks>& narrow) {
     Lanes<std::int64_t, 16> result;
     if constexpr (sizeof(T) == 2) {
         const auto all = simd::reinterpret<__m256i>(narrow.bits);
@@ -42,9 +58,9 @@ RDDL_INLINE Lanes<std::int64_t, 16> wide(const NarrowBits<T>& narrow) {
     return result;
 }
 
-template <class T>
-RDDL_INLINE Mask<16> operator==(const NarrowBits<T>& a, std::int64_t b) {
-    const typename NarrowBits<T>::Vector all = NarrowBits<T>{}.bits + static_cast<T>(b);
+template <class T, class Masks>
+RDDL_INLINE Mask<16> operator==(const NarrowBits<T, Masks>& a, std::int64_t b) {
+    const NarrowVector<T> all = NarrowVector<T>{} + static_cast<T>(b);
     if constexpr (sizeof(T) == 2)
         return Mask<16>::of_bits(_mm256_cmpeq_epi16_mask(simd::reinterpret<__m256i>(a.bits),
                                                          simd::reinterpret<__m256i>(all)));
@@ -53,82 +69,94 @@ RDDL_INLINE Mask<16> operator==(const NarrowBits<T>& a, std::int64_t b) {
                                                          simd::reinterpret<__m512i>(all)));
 }
 
-template <class T>
-RDDL_INLINE Mask<16> operator!=(const NarrowBits<T>& a, std::int64_t b) {
+template <class T, class Masks>
+RDDL_INLINE Mask<16> operator!=(const NarrowBits<T, Masks>& a, std::int64_t b) {
     return !(a == b);
 }
 
 // As joined_in_lanes (rddl/values/bool_rows.hpp): few masks are joined one by one.
 template <int count, class T>
-RDDL_INLINE NarrowBits<T> joined_in_narrow_lanes(const Mask<16>* bools) {
-    NarrowBits<T> joined{};
+RDDL_INLINE NarrowVector<T> joined_in_narrow_lanes(const Mask<16>* bools) {
+    NarrowVector<T> joined{};
     for (int i = 0; i < count; ++i) {
-        const auto bit = typename NarrowBits<T>::Vector{} + static_cast<T>(1 << i);
+        const auto bit = NarrowVector<T>{} + static_cast<T>(1 << i);
         if constexpr (sizeof(T) == 2)
-            joined.bits |= simd::reinterpret<typename NarrowBits<T>::Vector>(
+            joined |= simd::reinterpret<NarrowVector<T>>(
                 _mm256_maskz_mov_epi16(bools[i].bits, simd::reinterpret<__m256i>(bit)));
         else
-            joined.bits |= simd::reinterpret<typename NarrowBits<T>::Vector>(
+            joined |= simd::reinterpret<NarrowVector<T>>(
                 _mm512_maskz_mov_epi32(bools[i].bits, simd::reinterpret<__m512i>(bit)));
     }
     return joined;
 }
 
-template <int count>
-RDDL_INLINE auto narrow_bits_of(const Mask<16>* bools) {
-    using T = std::conditional_t<narrow_width(count) == 15, std::int16_t, std::int32_t>;
+template <int count, class T>
+RDDL_INLINE NarrowVector<T> narrow_lanes_of(const Mask<16>* bools) {
     if constexpr (count <= most_joined) return joined_in_narrow_lanes<count, T>(bools);
     const __m512i rows = simd::narrow_rows_of_pairs<count, int{8 * sizeof(T)}>(&bools->bits);
     if constexpr (sizeof(T) == 2)
-        return NarrowBits<T>{simd::reinterpret<typename NarrowBits<T>::Vector>(
-            _mm512_maskz_extracti64x4_epi64(0xff, rows, 0))};
+        return simd::reinterpret<NarrowVector<T>>(_mm512_maskz_extracti64x4_epi64(0xff, rows, 0));
     else
-        return NarrowBits<T>{simd::reinterpret<typename NarrowBits<T>::Vector>(rows)};
+        return simd::reinterpret<NarrowVector<T>>(rows);
+}
+
+template <int count>
+RDDL_INLINE auto narrow_bits_of(const Mask<16>* bools) {
+    using T = std::conditional_t<narrow_width(count) == 15, std::int16_t, std::int32_t>;
+    return narrow<T>(narrow_lanes_of<count, T>(bools), [bools](int i) RDDL_INLINE_LAMBDA {
+        return i < count ? bools[i] : Mask<16>(false);
+    });
 }
 
 }  // namespace detail
 
-template <class T>
-RDDL_INLINE detail::NarrowBits<T> bit_and(const detail::NarrowBits<T>& a,
-                                          const detail::NarrowBits<T>& b) {
-    return {a.bits & b.bits};
+template <class T, class A, class B>
+RDDL_INLINE auto bit_and(const detail::NarrowBits<T, A>& a, const detail::NarrowBits<T, B>& b) {
+    return detail::narrow<T>(a.bits & b.bits, [a = a.masks, b = b.masks](int i)
+                                                  RDDL_INLINE_LAMBDA { return a(i) && b(i); });
 }
-template <class T>
-RDDL_INLINE detail::NarrowBits<T> bit_or(const detail::NarrowBits<T>& a,
-                                         const detail::NarrowBits<T>& b) {
-    return {a.bits | b.bits};
+template <class T, class A, class B>
+RDDL_INLINE auto bit_or(const detail::NarrowBits<T, A>& a, const detail::NarrowBits<T, B>& b) {
+    return detail::narrow<T>(a.bits | b.bits, [a = a.masks, b = b.masks](int i)
+                                                  RDDL_INLINE_LAMBDA { return a(i) || b(i); });
 }
-template <class T>
-RDDL_INLINE detail::NarrowBits<T> bit_xor(const detail::NarrowBits<T>& a,
-                                          const detail::NarrowBits<T>& b) {
-    return {a.bits ^ b.bits};
+template <class T, class A, class B>
+RDDL_INLINE auto bit_xor(const detail::NarrowBits<T, A>& a, const detail::NarrowBits<T, B>& b) {
+    return detail::narrow<T>(a.bits ^ b.bits, [a = a.masks, b = b.masks](int i)
+                                                  RDDL_INLINE_LAMBDA { return a(i) != b(i); });
 }
-template <class T>
-RDDL_INLINE detail::NarrowBits<T> bit_and(const detail::NarrowBits<T>& a, std::int64_t b) {
-    return {a.bits & static_cast<T>(b)};
+template <class T, class A>
+RDDL_INLINE auto bit_and(const detail::NarrowBits<T, A>& a, std::int64_t b) {
+    return detail::narrow<T>(a.bits & static_cast<T>(b),
+                             [a = a.masks, b](int i)
+                                 RDDL_INLINE_LAMBDA { return a(i) && detail::mask_of_bit(b, i); });
 }
-template <class T>
-RDDL_INLINE detail::NarrowBits<T> bit_and(std::int64_t a, const detail::NarrowBits<T>& b) {
+template <class T, class A>
+RDDL_INLINE auto bit_or(const detail::NarrowBits<T, A>& a, std::int64_t b) {
+    return detail::narrow<T>(a.bits | static_cast<T>(b),
+                             [a = a.masks, b](int i)
+                                 RDDL_INLINE_LAMBDA { return a(i) || detail::mask_of_bit(b, i); });
+}
+template <class T, class A>
+RDDL_INLINE auto bit_xor(const detail::NarrowBits<T, A>& a, std::int64_t b) {
+    return detail::narrow<T>(a.bits ^ static_cast<T>(b),
+                             [a = a.masks, b](int i)
+                                 RDDL_INLINE_LAMBDA { return a(i) != detail::mask_of_bit(b, i); });
+}
+template <class T, class B>
+RDDL_INLINE auto bit_and(std::int64_t a, const detail::NarrowBits<T, B>& b) {
     return bit_and(b, a);
 }
-template <class T>
-RDDL_INLINE detail::NarrowBits<T> bit_or(const detail::NarrowBits<T>& a, std::int64_t b) {
-    return {a.bits | static_cast<T>(b)};
-}
-template <class T>
-RDDL_INLINE detail::NarrowBits<T> bit_or(std::int64_t a, const detail::NarrowBits<T>& b) {
+template <class T, class B>
+RDDL_INLINE auto bit_or(std::int64_t a, const detail::NarrowBits<T, B>& b) {
     return bit_or(b, a);
 }
-template <class T>
-RDDL_INLINE detail::NarrowBits<T> bit_xor(const detail::NarrowBits<T>& a, std::int64_t b) {
-    return {a.bits ^ static_cast<T>(b)};
-}
-template <class T>
-RDDL_INLINE detail::NarrowBits<T> bit_xor(std::int64_t a, const detail::NarrowBits<T>& b) {
+template <class T, class B>
+RDDL_INLINE auto bit_xor(std::int64_t a, const detail::NarrowBits<T, B>& b) {
     return bit_xor(b, a);
 }
-template <class T>
-RDDL_INLINE Lanes<std::int64_t, 16> count_ones(const detail::NarrowBits<T>& a) {
+template <class T, class Masks>
+RDDL_INLINE Lanes<std::int64_t, 16> count_ones(const detail::NarrowBits<T, Masks>& a) {
     return count_ones(detail::wide(a));
 }
 

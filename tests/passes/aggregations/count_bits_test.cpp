@@ -69,6 +69,16 @@ TEST(CountBits, TestsElements) {
               "int(bit_xor(bits(state.p, 0), bits(state.q, 0)) == 0)");
 }
 
+// A known condition is 0 where no element counts.
+TEST(CountBits, ChoosesElementsOnce) {
+    const std::string cpf = "max_{?v : obj} [exists_{?o : obj} [s(?v, ?o) ^ (?o ~= ?v)]]";
+    EXPECT_EQ(counted_in_bits(cpf),
+              "max[v in obj](int(bit_and(bits(state.s, 0), s-bits[v]) != 0))");
+    EXPECT_EQ(table_in_bits(cpf, "s-bits"), "s-bits[obj]: int = {6 40 192}");
+    EXPECT_EQ(counted_in_bits("max_{?v : obj} [forall_{?o : obj} [s(?v, ?o) | (?o == ?v)]]"),
+              "max[v in obj](int(bit_and(bit_xor(bits(state.s, 0), -1), s-bits[v]) == 0))");
+}
+
 TEST(CountBits, TestsPartsByThemselves) {
     EXPECT_EQ(counted_in_bits("forall_{?o : obj, ?u : obj} [s(?o, ?u) ^ x > 2]"),
               "int(bit_and(bit_xor(bits(state.s, 0), -1), 511) == 0 && state.x > 2)");
