@@ -95,8 +95,8 @@ class ObservedBatch {
     rddl_batch* batch_;
 };
 
-// What records may hold: what is usual, or all that callers may give, like nan, the greatest ints
-// and other bytes than 1 for true.
+// Records hold usual values, or whatever callers may give: nan, the greatest ints and other bytes
+// than 1 for true.
 enum class Given { Usual, Anything };
 
 // Random records of actions or states.

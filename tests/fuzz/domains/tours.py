@@ -5,7 +5,7 @@ from rddl_problem import Fluent, Type
 
 
 def add(draft: Draft) -> None:
-    for part in draft.rng.sample([walker, walker, visitors, heat, levels, alarms], draft.pick([1, 2, 2])):
+    for part in draft.rng.sample([walker, walker, visitors, heat, heat, levels, alarms], draft.pick([1, 2, 2])):
         part(draft)
 
 
@@ -107,7 +107,7 @@ def visitors(draft: Draft) -> None:
 
 def heat(draft: Draft) -> None:
     """Terms of a sum that constants let count for some rooms only, and that take long."""
-    room = draft.objects("room", main=True)
+    room = named(draft, "room", draft.pick([2, 3, 8, 9, 17]))
     warm, outer = draft.declare("warm", STATE, "real", room, default="0.5"), draft.declare("OUTER", CONSTANT, "bool", room)
     beside = draft.declare("BESIDE-ROOM", CONSTANT, "bool", room, room, default="false")
     members = draft.problem.type(room).members
@@ -118,7 +118,7 @@ def heat(draft: Draft) -> None:
     if draft.problem.flavour == "plain":
         costly = real("(%s * %s)", own, own)
     else:
-        costly = real(draft.pick(["cos[%s]", "(cos[%s] * 0.5)", "(sin[%s] * sin[%s])", "tanh[%s]", *(["(Normal(4.0, 1.0) - %s)"] * draft.flavour.draws)]).replace("%s", str(own)))
+        costly = real(draft.pick(["cos[%s]", "(cos[%s] * 0.5)", "(sin[%s] * sin[%s])", "tanh[%s]", *(["(Normal(4.0, 1.0) - %s)", "Normal(4.0, 1.0)", "(Normal(-0.5, 2.0) * 0.5)"] * 2 if draft.flavour.draws else [])]).replace("%s", str(own)))
     let_in = real(draft.pick(["(%s * %s)", "(%s * (%s * 0.25))"]), draft.at(outer, "?r"), costly)
     change = real(draft.pick(["(%s + %s)", "((0.0 + %s) + %s)", "((1.0 + %s) + %s)"]), flow, let_in)
     changed = draft.pick([real("(%s + 0.1 * %s)", own, change), change])
