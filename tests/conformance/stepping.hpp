@@ -4,11 +4,13 @@
 #include <rddl/simulator.h>
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <limits>
 #include <random>
 #include <string>
 #include <vector>
@@ -93,16 +95,22 @@ class ObservedBatch {
     rddl_batch* batch_;
 };
 
+// Records hold usual values, or whatever callers may give: nan, the greatest ints and other bytes
+// than 1 for true.
+enum class Given { Usual, Anything };
+
 // Random records of actions or states.
 class Records {
   public:
-    Records(const rddl_simulator& simulator, std::size_t count, rddl_role role)
+    Records(const rddl_simulator& simulator, std::size_t count, rddl_role role,
+            Given given = Given::Usual)
         : size_(static_cast<std::size_t>(role == RDDL_ACTION ? simulator.problem->action_size
                                                              : simulator.problem->state_size)),
           records(count * size_ + 1),
           simulator_(simulator),
           count_(count),
           role_(role),
+          given_(given),
           choices_(simulator.action_choice_count(&simulator)) {}
 
     // Every second action is a choice: one value that is not the default.
@@ -127,13 +135,18 @@ class Records {
         return std::uniform_int_distribution<std::int64_t>(lowest, highest)(random_);
     }
 
-    // Every third value stays as it is.
+    // Every third value stays as it is. Of some tables of bools of the state, few are true.
     void draw_all(std::uint8_t* record) {
         const rddl_problem& problem = *simulator_.problem;
         for (int f = 0; f < problem.fluent_count; ++f) {
             const rddl_fluent& fluent = problem.fluents[f];
             if (fluent.role != role_) continue;
             const std::size_t size = fluent.scalar == RDDL_BOOL ? 1 : 8;
+            if (role_ == RDDL_STATE && fluent.scalar == RDDL_BOOL && fluent.count > 1 &&
+                within(0, 2) != 0) {
+                draw_few_true(record + fluent.offset, fluent.count);
+                continue;
+            }
             for (std::int64_t i = 0; i < fluent.count; ++i)
                 if (within(0, 2) != 0)
                     draw_value(fluent, i,
@@ -141,20 +154,53 @@ class Records {
         }
     }
 
+    void draw_few_true(std::uint8_t* bools, std::int64_t count) {
+        std::fill_n(bools, count, std::uint8_t{0});
+        for (std::int64_t k = within(0, 5) / 2; k > 0; --k)
+            bools[within(0, count - 1)] = some_true();
+    }
+    std::uint8_t some_true() {
+        return given_ == Given::Anything && within(0, 3) == 0
+                   ? static_cast<std::uint8_t>(within(1, 255))
+                   : std::uint8_t{1};
+    }
+
     // A number without bounds is drawn from -10 to 10.
     void draw_value(const rddl_fluent& fluent, std::int64_t i, std::uint8_t* at) {
         const double lower = fluent.lower ? std::max(fluent.lower[i], -10.0) : -10.0;
         const double upper = fluent.upper ? std::min(fluent.upper[i], 10.0) : 10.0;
         if (fluent.scalar == RDDL_BOOL) {
-            *at = within(0, 1) != 0;
+            *at = within(0, 1) != 0 ? some_true() : std::uint8_t{0};
         } else if (fluent.range_type >= 0) {
             write(at, within(0, simulator_.problem->types[fluent.range_type].object_count - 1));
+        } else if (given_ == Given::Anything && within(0, 7) == 0) {
+            draw_extreme(fluent.scalar, at);
         } else if (fluent.scalar == RDDL_INT) {
             write(at, within(static_cast<std::int64_t>(lower),
                              static_cast<std::int64_t>(std::max(lower, upper))));
         } else {
             write(at, lower + (upper - lower) * static_cast<double>(within(0, 1000)) / 1000);
         }
+    }
+
+    void draw_extreme(rddl_scalar scalar, std::uint8_t* at) {
+        using Ints = std::numeric_limits<std::int64_t>;
+        using Reals = std::numeric_limits<double>;
+        constexpr std::array ints{
+            Ints::max(),      Ints::min(),           (std::int64_t{1} << 53) + 1,
+            std::int64_t{-1}, std::int64_t{1} << 31, std::int64_t{65536}};
+        constexpr std::array reals{Reals::quiet_NaN(),
+                                   Reals::infinity(),
+                                   -Reals::infinity(),
+                                   -0.0,
+                                   Reals::max(),
+                                   Reals::denorm_min(),
+                                   -1e300,
+                                   0.0};
+        if (scalar == RDDL_INT)
+            write(at, ints[static_cast<std::size_t>(within(0, std::ssize(ints) - 1))]);
+        else
+            write(at, reals[static_cast<std::size_t>(within(0, std::ssize(reals) - 1))]);
     }
 
     template <class T>
@@ -165,6 +211,7 @@ class Records {
     const rddl_simulator& simulator_;
     std::size_t count_;
     rddl_role role_;
+    Given given_;
     std::int64_t choices_;
     std::mt19937_64 random_;
 };

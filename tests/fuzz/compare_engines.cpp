@@ -2,13 +2,14 @@
 //
 //   fuzz_engines OBJECT.so
 //       reads one JSON object a line, writes one a line:
-//       {"file": "problem.rddl", "entry": "rddl_simulator_fuzz_i7", "fast_math": false, "steps":
-//       12}
+//       {"file": "problem.rddl", "entry": "rddl_simulator_fuzz_i7", "fast_math": false,
+//        "wild": false, "steps": 12}
 //       {"lanes": 16, "instruction_set": "AVX2", "ends": 3, "faults": 1, "difference": ""}
 //       {"too_large": true}
 //
-// Environments start from the initial state, and now and then from a random one. They take random
-// actions, or every other step those of the policy block, if there is one.
+// Environments start from the initial state, and now and then from a random one, which holds nan
+// and the like if it is wild. They take random actions, or every other step those of the policy
+// block, if there is one.
 #include "../conformance/stepping.hpp"
 #include "driver/driver.hpp"
 #include "engines/interpreted_simulator.hpp"
@@ -117,7 +118,8 @@ json compare(void* object, const json& request) {
     if (lanes > 1)
         engines.push_back({"packs", std::make_unique<ObservedBatch>(simulator, count, lanes, 1)});
     Records actions(simulator, static_cast<std::size_t>(count), RDDL_ACTION);
-    Records states(simulator, static_cast<std::size_t>(count), RDDL_STATE);
+    Records states(simulator, static_cast<std::size_t>(count), RDDL_STATE,
+                   request.value("wild", false) ? Given::Anything : Given::Usual);
     json answer = {{"lanes", lanes},
                    {"instruction_set", simulator.instruction_set},
                    {"ends", 0},

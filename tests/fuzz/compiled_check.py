@@ -78,6 +78,7 @@ class CompiledChecker:
                 "file": str(folder / f"{seed}.rddl"),
                 "entry": f"rddl_simulator_fuzz_i{seed}",
                 "fast_math": problem.flavour == "finite",
+                "wild": problem.flavour == "wild",
                 "without": self.options.without,
                 "steps": STEPS,
             }

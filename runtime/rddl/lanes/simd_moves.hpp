@@ -5,7 +5,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <type_traits>
 #include <utility>
 
 namespace rddl::simd::inline RDDL_SIMD_LEVEL {
@@ -76,14 +75,17 @@ template <class T>
 [[gnu::always_inline]] inline Reals in_all_lanes(Reals values, int lane) {
     return _mm512_maskz_permutexvar_pd(0xFF, _mm512_set1_epi64(lane), values);
 }
+// The lanes so many places further on, behind zeros. A parameter of the template, since without
+// optimisation compilers take no other constant for an immediate operand.
+template <int places>
+[[gnu::always_inline]] inline Reals moved_on(Reals values) {
+    return (Reals)_mm512_maskz_alignr_epi64(0xFF, (__m512i)values, __m512i{}, lanes - places);
+}
 // The sum of each lane and of all lanes before it, in three additions.
 [[gnu::always_inline]] inline Reals running_sums(Reals values) {
-    const auto moved = [](Reals sums, auto by) __attribute__((always_inline)) {
-        return (Reals)_mm512_maskz_alignr_epi64(0xFF, (__m512i)sums, __m512i{}, lanes - by());
-    };
-    values += moved(values, std::integral_constant<int, 1>{});
-    values += moved(values, std::integral_constant<int, 2>{});
-    values += moved(values, std::integral_constant<int, 4>{});
+    values += moved_on<1>(values);
+    values += moved_on<2>(values);
+    values += moved_on<4>(values);
     return values;
 }
 

@@ -341,6 +341,15 @@ template <int n, class A>
 RDDL_INLINE Lanes<std::int64_t, n> wrap_mul(const A& a, Mask<n> is_one) {
     return select(is_one, a, std::int64_t{0});
 }
+// A bool that all lanes share, as that of an environment beside the ints of its objects.
+template <int n>
+RDDL_INLINE Lanes<std::int64_t, n> wrap_mul(bool is_one, const Lanes<std::int64_t, n>& b) {
+    return wrap_mul(Mask<n>(is_one), b);
+}
+template <int n>
+RDDL_INLINE Lanes<std::int64_t, n> wrap_mul(const Lanes<std::int64_t, n>& a, bool is_one) {
+    return wrap_mul(a, Mask<n>(is_one));
+}
 template <int n>
 RDDL_INLINE Lanes<std::int64_t, n> wrap_neg(const Lanes<std::int64_t, n>& a) {
     return wrap_sub(std::int64_t{0}, a);

@@ -22,8 +22,9 @@ def roads(draft: Draft) -> None:
     spot = spots(draft, [17, 17, 18, 20, 33, 65, 66])
     members = draft.problem.type(spot).members
     road = draft.declare("ROAD", CONSTANT, "bool", spot, spot, default="false")
+    offsets = draft.pick([[0, 1, 2, 5, len(members) - 1], [1, 2, 5, len(members) - 1]])
     for index, member in enumerate(members):
-        for offset in draft.rng.sample([0, 1, 2, 5, len(members) - 1], draft.pick([0, 1, 2, 2])):
+        for offset in draft.rng.sample(offsets, draft.pick([0, 1, 2, 2])):
             road.values[(member, members[(index + offset) % len(members)])] = "true"
     vehicle = draft.declare("vehicle-at", STATE, "bool", spot, default="false")
     for member in draft.rng.sample(members, draft.pick([1, 1, 1, 2]) if len(members) > 32 else 1):

@@ -199,6 +199,15 @@ auto product_if_first_is_less(const auto& a, const auto& b) {
     return wrap_sub(wrap_mul(a < b, b), wrap_mul(a, b < a));
 }
 
+TEST(Packs, TakeABoolOfAllLanesAsAFactorOfInts) {
+    const Lanes<std::int64_t, width> a{7};
+    for (const bool is_one : {false, true})
+        for (int lane = 0; lane < width; ++lane) {
+            EXPECT_EQ(wrap_mul(a, is_one)[lane], 7 * is_one);
+            EXPECT_EQ(wrap_mul(is_one, a)[lane], 7 * is_one);
+        }
+}
+
 TEST(Packs, ComputeWithIntsAsScalarsDo) {
     const std::vector<std::int64_t> a = ints(5), b = ints(6);
     EXPECT_BITS_OF_SCALARS(wrap_add(x...), a, b);
