@@ -43,12 +43,23 @@ class Kernel:
 
 KERNELS = {
     "Acrobot_gym": Kernel("0", "acrobot", "Acrobot"),
+    "Bicycle_physics": Kernel("0", "bicycle", "Bicycle"),
     "CartPole_Continuous_gym": Kernel("0", "cart_pole", "ContinuousCartPole"),
     "CartPole_Discrete_gym": Kernel("0", "cart_pole", "DiscreteCartPole"),
+    "Epidemic": Kernel("0", "epidemic", "Epidemic"),
     "MountainCar_Continuous_gym": Kernel("0", "mountain_car", "ContinuousMountainCar"),
     "MountainCar_Discrete_gym": Kernel("0", "mountain_car", "DiscreteMountainCar"),
+    "Navigation_Continuous": Kernel("0", "navigation", "Navigation"),
+    "Option_or": Kernel("1", "option", "Option"),
     "Pendulum_gym": Kernel("0", "pendulum", "Pendulum"),
+    "PowerGen_ippc2023": Kernel("3", "power_gen", "PowerGen"),
     "Reacher_physics": Kernel("1", "reacher", "Reacher"),
+    "Reservoir_Continuous": Kernel("1", "reservoir", "SmallContinuousReservoirs"),
+    "Reservoir_Discrete": Kernel("1", "reservoir", "SmallDiscreteReservoirs"),
+    "Reservoir_ippc2023": Kernel("3", "reservoir", "IppcReservoirs"),
+    "UAV_Continuous": Kernel("1", "uav", "OneSteeredAircraft"),
+    "UAV_ippc2023": Kernel("3", "uav", "TwoSteeredAircraft"),
+    "Zombies_arcade": Kernel("2", "zombies", "Zombies"),
 }
 REALS = {"float": ["--real=float"], "double": []}
 

@@ -34,8 +34,26 @@ RDDL_INLINE rddl::Lanes<T, n> over(const rddl::Lanes<T, n>& a, double constant) 
         a, product, negated, reciprocal);
 }
 
+// The remainder in [0, constant), rounded once, where the quotient is not great.
+template <class T, int n>
+RDDL_INLINE rddl::Lanes<T, n> modulo(const rddl::Lanes<T, n>& a, double constant) {
+    using Real = rddl::Lanes<T, n>;
+    const T divisor = static_cast<T>(constant);
+    const Real rest = Real::each(
+        [](auto dividend, auto quotient, auto minus) RDDL_INLINE_LAMBDA {
+            return decltype(dividend)(fused(quotient, minus, dividend));
+        },
+        a, rddl::floor_as_real(a * (T{1} / divisor)), Real{-divisor});
+    const Real not_negative = rddl::select(rest < Real{0}, rest + divisor, rest);
+    return rddl::select(not_negative >= Real{divisor}, not_negative - divisor, not_negative);
+}
+
 #else
 
+template <class T, int n>
+RDDL_INLINE rddl::Lanes<T, n> modulo(const rddl::Lanes<T, n>& a, double constant) {
+    return rddl::floor_mod(a, rddl::Lanes<T, n>{constant});
+}
 template <class T, int n>
 RDDL_INLINE rddl::Lanes<T, n> over(const rddl::Lanes<T, n>& a, double constant) {
     return a / static_cast<T>(constant);

@@ -30,7 +30,7 @@ struct Pendulum {
         const auto [sin, cos] = sin_cos(next.angle);
         next.x = cos;
         next.y = sin;
-        const Real deviation = rddl::floor_mod(state.angle + pi, Real{2 * pi}) - pi;
+        const Real deviation = modulo(state.angle + pi, 2 * pi) - pi;
         return -(deviation * deviation + 0.1 * (state.velocity * state.velocity) +
                  0.001 * (action.torque * action.torque));
     }
