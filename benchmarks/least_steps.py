@@ -106,9 +106,10 @@ def tenths_of_jax() -> dict[str, float]:
 COLUMNS = ("instance", "a tenth of jax's", "kernel, floats", "step, floats", "kernel, doubles", "step, doubles")
 
 
-def row_of(problem: str, tenth: float, floats: Least, doubles: Least) -> tuple[str, ...]:
-    figures = (tenth, floats.kernel, floats.step, doubles.kernel, doubles.step)
-    return (f"{problem} {KERNELS[problem].instance}", *(f"{value:.1f}" for value in figures))
+def row_of(problem: str, tenths: dict[str, float], floats: Least, doubles: Least) -> tuple[str, ...]:
+    label = f"{problem} {KERNELS[problem].instance}"
+    figures = (tenths[label], floats.kernel, floats.step, doubles.kernel, doubles.step)
+    return (label, *(f"{value:.1f}" for value in figures))
 
 
 def parse_arguments() -> argparse.Namespace:
@@ -136,8 +137,7 @@ def main() -> int:
     print(markdown_table(rows), flush=True)
     for problem in options.problems or KERNELS:
         floats, doubles = (measure(problem, real, program, options) for real in REALS)
-        tenth = tenths[f"{problem} {KERNELS[problem].instance}"]
-        rows.append(row_of(problem, tenth, floats, doubles))
+        rows.append(row_of(problem, tenths, floats, doubles))
         print("| " + " | ".join(rows[-1]) + " |", flush=True)
     if options.write:
         rows = merged_rows("least steps", rows) if options.problems else rows

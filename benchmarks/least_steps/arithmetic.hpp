@@ -1,4 +1,4 @@
-// What the least steps need beside the functions of simulators.
+// Quotients, remainders and angles that cost less than the functions of simulators.
 #pragma once
 
 #include <rddl/simulator.hpp>
@@ -40,9 +40,8 @@ RDDL_INLINE rddl::Lanes<T, n> modulo(const rddl::Lanes<T, n>& a, double constant
     using Real = rddl::Lanes<T, n>;
     const T divisor = static_cast<T>(constant);
     const Real rest = Real::each(
-        [](auto dividend, auto quotient, auto minus) RDDL_INLINE_LAMBDA {
-            return decltype(dividend)(fused(quotient, minus, dividend));
-        },
+        [](auto dividend, auto quotient, auto minus)
+            RDDL_INLINE_LAMBDA { return decltype(dividend)(fused(quotient, minus, dividend)); },
         a, rddl::floor_as_real(a * (T{1} / divisor)), Real{-divisor});
     const Real not_negative = rddl::select(rest < Real{0}, rest + divisor, rest);
     return rddl::select(not_negative >= Real{divisor}, not_negative - divisor, not_negative);

@@ -39,9 +39,9 @@ struct Bicycle {
 
         const Real back = over(rddl::absolute(rddl::tan(state.bar)), 1.11);
         const Real front = over(rddl::absolute(rddl::sin(state.bar)), 1.11);
-        const Real centre = rddl::select(
-            side == Real{0}, Real{0},
-            Real{1} / rddl::sqrt(0.20250000000000007 + per_square(back + 1e-10)));
+        const Real centre =
+            rddl::select(side == Real{0}, Real{0},
+                         Real{1} / rddl::sqrt(0.20250000000000007 + per_square(back + 1e-10)));
 
         constexpr R width = R(0.02) - R(-0.02);
         const Real noise = R(-0.02) + width * draws.uniform(0);
@@ -63,7 +63,7 @@ struct Bicycle {
         return side * 7.716045061729 * turn;
     }
 
-    // Of floats, a double's quotient is the power's float.
+    // A double's quotient, rounded to float, is the power of floats.
     template <int n>
     static RDDL_INLINE rddl::Lanes<double, n> per_square(const rddl::Lanes<double, n>& a) {
         return rddl::power(a, rddl::Lanes<double, n>{-2});

@@ -39,8 +39,12 @@ struct Epidemic {
     static RDDL_INLINE typename L::Real step(const State<L>& s, const Action<L>& action,
                                              const auto&, State<L>& next) {
         using Real = typename L::Real;
-        const auto at_least_0 = [](const Real& a) { return rddl::maximum(Real{0}, a); };
-        const auto at_most_1 = [](const Real& a) { return rddl::minimum(Real{1}, a); };
+        const auto at_least_0 = [](const Real& a) {
+            return rddl::maximum(Real{0}, a);
+        };
+        const auto at_most_1 = [](const Real& a) {
+            return rddl::minimum(Real{1}, a);
+        };
         const Real near = 1.0 - 0.7 * action.distance;
         const Real at_school = rddl::select(action.schools_are_closed, Real{0.2}, Real{1});
         Real dead = 0, vaccinated = 0, hospital = 0;
@@ -54,8 +58,8 @@ struct Epidemic {
                 at_least_0((1.0 - rate) * s.susceptible[g] - action.vaccinated[g]);
             next.exposed[g] = at_least_0(at_most_1(0.8 * s.exposed[g] + rate * s.susceptible[g]));
             next.infected[g] = at_least_0(at_most_1(0.9 * s.infected[g] + 0.2 * s.exposed[g]));
-            next.recovered[g] = at_least_0(
-                at_most_1(s.recovered[g] + 0.1 * s.infected[g] + action.vaccinated[g]));
+            next.recovered[g] =
+                at_least_0(at_most_1(s.recovered[g] + 0.1 * s.infected[g] + action.vaccinated[g]));
             next.hospital[g] =
                 at_least_0(at_most_1(0.5 * s.hospital[g] + hospital_rate[g] * s.infected[g]));
             next.dead[g] = at_most_1(s.dead[g] + death_rate[g] * s.hospital[g]);

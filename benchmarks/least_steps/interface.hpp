@@ -1,4 +1,4 @@
-// What main.cpp calls in the shared object of a kernel.
+// The functions that main.cpp calls in the shared object of a kernel.
 #pragma once
 
 #include <cstddef>

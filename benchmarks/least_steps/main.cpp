@@ -10,9 +10,10 @@
 #include "measure/measurement.hpp"
 #include "solvers/batches/batch.hpp"
 
+#include <rddl/random/random.hpp>
+
 #include <dlfcn.h>
 #include <nlohmann/json.hpp>
-#include <rddl/random/random.hpp>
 
 #include <algorithm>
 #include <cstdlib>
@@ -63,14 +64,9 @@ class Play {
     // The environments before step k of the course.
     least_steps::Environments environments(std::int64_t k) const {
         const auto action_size = static_cast<std::size_t>(simulator_.problem->action_size);
-        return {count_,
-                state_size_,
-                action_size,
-                states_.data(),
-                course_.of_step(k),
-                steps_.data(),
-                keys_low_.data(),
-                keys_high_.data()};
+        return {count_,           state_size_,        action_size,
+                states_.data(),   course_.of_step(k), steps_.data(),
+                keys_low_.data(), keys_high_.data()};
     }
 
     // Makes step k, and compares it with that of the kernel. Returns how many numbers it compared.
@@ -91,7 +87,8 @@ class Play {
             if (terminated_[i] || truncated_[i])
                 begin_episode(i, 1);
             else
-                compared += compare_states(&next_states_[i * state_size_], &expected[i * state_size_]);
+                compared +=
+                    compare_states(&next_states_[i * state_size_], &expected[i * state_size_]);
         }
         states_.swap(next_states_);
         for (std::uint64_t& step : steps_) ++step;
@@ -118,8 +115,8 @@ class Play {
             if (fluent.role != RDDL_STATE) continue;
             for (std::int64_t k = 0; k < fluent.count; ++k, ++compared) {
                 const std::size_t size = fluent.scalar == RDDL_BOOL ? 1 : sizeof(double);
-                const std::size_t at = static_cast<std::size_t>(fluent.offset) +
-                                       static_cast<std::size_t>(k) * size;
+                const std::size_t at =
+                    static_cast<std::size_t>(fluent.offset) + static_cast<std::size_t>(k) * size;
                 require(are_same(fluent.scalar == RDDL_REAL, ours + at, theirs + at, size),
                         fluent.name);
             }
@@ -164,8 +161,7 @@ double nanoseconds_of(const rddl_simulator& simulator, double seconds) {
 }  // namespace
 
 int main(int count, char** arguments) try {
-    if (count < 3)
-        throw std::runtime_error("usage: least_steps SIMULATOR.so KERNEL.so [SECONDS]");
+    if (count < 3) throw std::runtime_error("usage: least_steps SIMULATOR.so KERNEL.so [SECONDS]");
     const double seconds = count > 3 ? std::atof(arguments[3]) : 0.5;
     const rddl_simulator& simulator =
         *load<const rddl_simulator*()>(arguments[1], "rddl_simulator_entry")();

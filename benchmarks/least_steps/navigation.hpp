@@ -36,8 +36,7 @@ struct Navigation {
         const auto normals = draws.template normals<2>(0);
         for (std::size_t l = 0; l < 2; ++l) {
             const Real deviation = rddl::sqrt(0.05 * rddl::absolute(action.move[l]));
-            next.location[l] =
-                state.location[l] + speed * action.move[l] + deviation * normals[l];
+            next.location[l] = state.location[l] + speed * action.move[l] + deviation * normals[l];
         }
         return -distance(state.location, 8, 9);
     }

@@ -42,7 +42,8 @@ struct Option {
                             Real{0});
     }
 
-    static constexpr double factors[] = {0.22360679774997896, 0.27386127875258304, 0.4743416490252569};
+    static constexpr double factors[] = {0.22360679774997896, 0.27386127875258304,
+                                         0.4743416490252569};
     static constexpr double drift[] = {0.00030000000000000003, 6e-04};
     static constexpr double root_of_time = 0.06324555320336758;
 };

@@ -25,7 +25,8 @@ struct Pendulum {
         using Real = typename L::Real;
         constexpr double pi = 3.14159265;
         const Real force = 14.700000000000001 * rddl::sin(state.angle) + 3.0 * action.torque;
-        next.velocity = rddl::maximum(rddl::minimum(state.velocity + force * 0.05, Real{8}), Real{-8});
+        next.velocity =
+            rddl::maximum(rddl::minimum(state.velocity + force * 0.05, Real{8}), Real{-8});
         next.angle = state.angle + next.velocity * 0.05;
         const auto [sin, cos] = sin_cos(next.angle);
         next.x = cos;

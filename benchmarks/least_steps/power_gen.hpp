@@ -48,15 +48,16 @@ struct PowerGen {
         Real produced = 0, costs = 0, changes = 0, starts = 0;
         for (std::size_t p = 0; p < plants; ++p) {
             next.on[p] = action.production[p] >= Real{least[p]};
-            const Real wanted = rddl::minimum(action.production[p] + scale[p] * more[p],
-                                              Real{greatest[p]});
-            const Real amount = rddl::select(next.on[p], rddl::maximum(wanted, Real{least[p]}),
-                                             Real{0});
+            const Real wanted =
+                rddl::minimum(action.production[p] + scale[p] * more[p], Real{greatest[p]});
+            const Real amount =
+                rddl::select(next.on[p], rddl::maximum(wanted, Real{least[p]}), Real{0});
             next.produced[p] = amount;
             produced = p == 0 ? amount : produced + amount;
             costs = costs + amount * unit_cost[p];
             changes = changes + rddl::absolute(amount - state.produced[p]) * change_cost[p];
-            starts = starts + rddl::select(!state.on[p] && next.on[p], Real{start_cost[p]}, Real{0});
+            starts =
+                starts + rddl::select(!state.on[p] && next.on[p], Real{start_cost[p]}, Real{0});
         }
         const Real fulfilled = rddl::minimum(demand, produced);
         const Real penalty = rddl::select(demand > fulfilled, Real{1000}, Real{0});

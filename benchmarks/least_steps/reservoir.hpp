@@ -44,9 +44,9 @@ struct Reservoirs {
             // No level is above the top.
             const Real too_low = -5.0 * (C::least[r] - reached);
             const Real too_high = -10.0 * (reached - C::greatest[r]);
-            reward = reward + rddl::select(reached < Real{C::least[r]}, too_low,
-                                           rddl::select(reached > Real{C::greatest[r]}, too_high,
-                                                        Real{0}));
+            reward = reward +
+                     rddl::select(reached < Real{C::least[r]}, too_low,
+                                  rddl::select(reached > Real{C::greatest[r]}, too_high, Real{0}));
         }
         return reward;
     }
@@ -116,9 +116,18 @@ using SmallContinuousReservoirs = ContinuousReservoirs<SmallReservoirs>;
 using SmallDiscreteReservoirs = DiscreteReservoirs<SmallReservoirs>;
 
 struct ThirdReservoirs {
-    static constexpr double top[] = {365.1318947784891, 354.56815947704115, 159.98564094350357, 206.54329864865548, 328.8257122826851, 312.3631504108888, 128.04968259773747, 228.52315631505726, 316.604658365775, 124.32384546502664};
-    static constexpr double least[] = {99.28077123793895, 52.70500492913583, 15.816777351060948, 73.60735148065014, 49.43402235793882, 112.64249162782089, 19.655300953891356, 109.27118610302212, 55.454238538970834, 81.34358088129179};
-    static constexpr double greatest[] = {242.39769006937888, 146.82518673502517, 65.0007902681157, 171.13792332611985, 163.53549045033566, 266.6245150000089, 45.29329435401057, 182.40872437041935, 212.3383176934107, 113.89335852327719};
+    static constexpr double top[] = {365.1318947784891,  354.56815947704115, 159.98564094350357,
+                                     206.54329864865548, 328.8257122826851,  312.3631504108888,
+                                     128.04968259773747, 228.52315631505726, 316.604658365775,
+                                     124.32384546502664};
+    static constexpr double least[] = {99.28077123793895,  52.70500492913583,  15.816777351060948,
+                                       73.60735148065014,  49.43402235793882,  112.64249162782089,
+                                       19.655300953891356, 109.27118610302212, 55.454238538970834,
+                                       81.34358088129179};
+    static constexpr double greatest[] = {242.39769006937888, 146.82518673502517, 65.0007902681157,
+                                          171.13792332611985, 163.53549045033566, 266.6245150000089,
+                                          45.29329435401057,  182.40872437041935, 212.3383176934107,
+                                          113.89335852327719};
     static constexpr double receivers[] = {3, 4, 1, 1, 3, 3, 2, 1, 5, 1};
     static constexpr double rain_variance = 20;
     static constexpr bool connected[10][10] = {

@@ -54,7 +54,7 @@ struct Aircraft {
         next.speed[a] = rddl::maximum(Real{0}, state.speed[a] + faster);
     }
 
-    // Those of each site draw together.
+    // The aircraft draw together at each site.
     template <class L>
     static RDDL_INLINE void drift(const Reals<L>& values, const auto& draws, std::uint64_t site,
                                   Reals<L>& next) {

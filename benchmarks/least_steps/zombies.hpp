@@ -86,7 +86,7 @@ struct Zombies {
         return with_stuns<L>(s, action, ways) + zombies;
     }
 
-    // Those of zombies first, since the sum is rounded.
+    // The sum is rounded, so its order is that of the domain: zombies first.
     template <class L>
     static RDDL_INLINE typename L::Real with_stuns(const State<L>& s, const Action<L>& action,
                                                    const typename L::Real& ways) {
