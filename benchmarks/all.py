@@ -18,6 +18,7 @@ PARTS = (
     ("cliffs.py", True, True),
     ("compare.py", True, True),
     ("compare_jax.py", True, True),
+    ("least_steps.py", False, False),
     ("handwritten.py", False, True),
     ("lanes.py", True, True),
     ("growth.py", False, True),

@@ -129,12 +129,17 @@ def run(command: list) -> str:
 
 
 def build_program(options: argparse.Namespace) -> Path:
-    """The program that compares, of what measures in rddl; and the tables of the references."""
+    """The program that compares; and the tables of the references."""
     options.folder.mkdir(parents=True, exist_ok=True)
     (options.folder / "tables.hpp").write_text(run([sys.executable, FOLDER / "tables.py"]))
-    program = options.folder / "handwritten"
+    return build_measuring_program(FOLDER / "main.cpp", options.folder / "handwritten", options)
+
+
+def build_measuring_program(main: Path, program: Path, options: argparse.Namespace) -> Path:
+    """Of `main` and of what measures in rddl."""
+    program.parent.mkdir(parents=True, exist_ok=True)
     measuring = ("terminal/interrupt", "measure/measurement", "measure/random_course", "formats/records_json")
-    sources = [FOLDER / "main.cpp", *(ROOT / f"workbench/{name}.cpp" for name in measuring)]
+    sources = [main, *(ROOT / f"workbench/{name}.cpp" for name in measuring)]
     libraries = [options.build / "solvers/librddl_solvers.a", options.build / "support/librddlc_support.a",
                  "-lfmt", "-lutf8proc", "-ldl", "-pthread"]
     folders = [ROOT / "runtime", ROOT / "workbench", ROOT]
@@ -154,11 +159,12 @@ def build_reference(problem: str, options: argparse.Namespace) -> Path:
     return library
 
 
-def build_batches(options: argparse.Namespace) -> None:
+def build_batches(options: argparse.Namespace, real: str = "double") -> Path:
     """The code of batches that all simulators of rddl link."""
-    batches = options.folder / "batches.o"
+    batches = options.folder / f"batches.{real}.o"
     source = ROOT / "runtime/rddl/batches.cpp"
-    run([options.cxx, *FLAGS, "-fPIC", "-DRDDL_BATCHES_OF=double", f"-I{ROOT / 'runtime'}", "-c", source, "-o", batches])
+    run([options.cxx, *FLAGS, "-fPIC", f"-DRDDL_BATCHES_OF={real}", f"-I{ROOT / 'runtime'}", "-c", source, "-o", batches])
+    return batches
 
 
 def build_simulator(problem: str, rddlc_options: list[str], options: argparse.Namespace) -> Path:
@@ -166,7 +172,7 @@ def build_simulator(problem: str, rddlc_options: list[str], options: argparse.Na
     source = options.folder / f"{problem}.cpp"
     simulator = source.with_suffix(".so")
     run([options.build / "bin/rddlc", *rddlc_options, case.domain_path, case.instance_path, "-o", source])
-    links = ["-DRDDL_ENTRY=rddl_simulator_entry", "-DRDDL_LINKS_BATCHES", options.folder / "batches.o"]
+    links = ["-DRDDL_ENTRY=rddl_simulator_entry", "-DRDDL_LINKS_BATCHES", options.folder / "batches.double.o"]
     run([options.cxx, *FLAGS, *LINKING, *links, f"-I{ROOT / 'runtime'}", source, "-o", simulator])
     return simulator
 

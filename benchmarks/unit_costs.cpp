@@ -61,13 +61,15 @@ template <class R, class Draw>
 double time_of_draws(Draw draw) {
     using L = rddl::Pack<width, R>;
     using Word = typename L::Word;
+    Word keys;  // of other numbers in each lane: 15 of 100 are in the tails of normals
+    for (int lane = 0; lane < width; ++lane) keys.set(lane, static_cast<std::uint64_t>(lane));
     constexpr rddl::Index count = 8;
     constexpr int rounds = 15, steps = 3000;
     double best = 1e9;
     for (int round = 0; round < rounds; ++round) {
         const double begin = processor_seconds();
         for (std::uint64_t step = 0; step < steps; ++step) {
-            auto context = rddl::Context<L>::of(Word{7}, Word{9}, Word{step}, true);
+            auto context = rddl::Context<L>::of(keys, Word{9}, Word{step}, true);
             for (rddl::Index i = 0; i < count; ++i)
                 results<R>[static_cast<std::size_t>(i)] =
                     draw(context, rddl::PlaceAmong<count>{0, i});

@@ -27,6 +27,7 @@ import document  # noqa: E402
 import growth  # noqa: E402
 import handwritten  # noqa: E402
 import lanes  # noqa: E402
+import least_steps  # noqa: E402
 import plots  # noqa: E402
 import pyRDDLGym  # noqa: E402
 import segments  # noqa: E402
@@ -321,6 +322,25 @@ class Handwritten(unittest.TestCase):
         self.assertEqual(
             handwritten.disagreements(alone), ["Knapsack_or 0, 1 environment: the results differ by inf"]
         )
+
+
+class LeastSteps(unittest.TestCase):
+    # benchmarks/least_steps.py compares all: too long for each run of the tests.
+    FEW = ("Option_or", "MountainCar_Discrete_gym")
+
+    def test_kernels_have_the_values_of_what_is_emitted(self):
+        with tempfile.TemporaryDirectory() as folder:
+            build = Path(RDDL).parents[1]
+            options = ["--build", build, "--folder", folder, "--seconds", 0.01]
+            status, text = run_program(least_steps.main, *self.FEW, *options)
+        self.assertEqual(status, 0, text)  # an error if a value differs
+        for problem in self.FEW:
+            self.assertIn(f"| {problem} {least_steps.KERNELS[problem].instance} | ", text)
+
+    def test_kernels_are_there(self):
+        for kernel in least_steps.KERNELS.values():
+            header = (least_steps.FOLDER / f"{kernel.header}.hpp").read_text()
+            self.assertRegex(header, rf"(struct|using) {kernel.struct} ")
 
 
 class Lanes(unittest.TestCase):
