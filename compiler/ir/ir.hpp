@@ -389,11 +389,12 @@ struct External {
     Span span;         // of its first use
 };
 
-// A definition fills its target with a copy of a table of the state if all bools of these tables of
-// the action are false (passes/lanes/keep_unchosen.hpp).
+// If all bools of these tables of the action are false, a definition fills its target with a copy of
+// a table of the state (passes/lanes/keep_unchosen.hpp), or nothing reads what it fills
+// (passes/lanes/skip_unread.hpp).
 struct Unchosen {
     std::vector<BufferId> choices;
-    BufferId kept;
+    std::optional<BufferId> kept;
 };
 // One CPF, one random initial value, or a table made by a pass: the statements that fill (a part
 // of) one buffer.
@@ -401,7 +402,7 @@ struct Definition {
     BufferId target;
     Block body;
     Span span;  // of the CPF or the value
-    // If set, the body is Lets and a loop, and emitted code may skip them.
+    // If set, emitted code may skip the body: Lets and a loop, if it keeps a table.
     std::optional<Unchosen> unchosen = {};
 };
 // A value with what must be computed before it.

@@ -129,12 +129,12 @@ class Printer {
         writer_.dedent();
     }
 
-    // "unless action.use or action.move"
+    // "state.seen unless action.use or action.move"; "unread unless ..."
     void unchosen(const Unchosen& form) {
         std::vector<std::string> choices;
         for (const BufferId choice : form.choices) choices.push_back(element(choice, {}));
-        writer_.line(
-            fmt::format("{} unless {}", element(form.kept, {}), fmt::join(choices, " or ")));
+        writer_.line(fmt::format("{} unless {}", form.kept ? element(*form.kept, {}) : "unread",
+                                 fmt::join(choices, " or ")));
     }
 
     // ------------------------------------------------------------------------- tables

@@ -154,7 +154,7 @@ void change_buffers(Program& program, const std::function<void(BufferId&)>& chan
         change(definition->target);
         if (definition->unchosen) {
             for (BufferId& choice : definition->unchosen->choices) change(choice);
-            change(definition->unchosen->kept);
+            if (definition->unchosen->kept) change(*definition->unchosen->kept);
         }
         change_tables(definition->body, change);
     }

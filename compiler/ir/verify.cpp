@@ -473,20 +473,30 @@ class Verifier {
     }
 
     void unchosen(const Definition& definition) {
-        const Buffer& kept = program_[definition.unchosen->kept];
         const Buffer& target = program_[definition.target];
+        require(
+            std::ranges::all_of(definition.unchosen->choices,
+                                [&](BufferId choice) { return is_action_bools(program_[choice]); }),
+            "'{}' is chosen by what is no choice", target.name);
+        if (!definition.unchosen->kept) return unread(definition);
+        const Buffer& kept = program_[*definition.unchosen->kept];
         const std::span<const Statement> statements = definition.body;
         const auto is_let = [](const Statement& statement) {
             return std::holds_alternative<Let>(statement.form);
         };
         require(kept.storage == Storage::State && kept.scalar == target.scalar &&
-                    kept.shape == target.shape &&
-                    std::ranges::all_of(
-                        definition.unchosen->choices,
-                        [&](BufferId choice) { return is_action_bools(program_[choice]); }) &&
-                    !statements.empty() && std::holds_alternative<Loop>(statements.back().form) &&
+                    kept.shape == target.shape && !statements.empty() &&
+                    std::holds_alternative<Loop>(statements.back().form) &&
                     std::ranges::all_of(statements.first(statements.size() - 1), is_let),
                 "'{}' does not keep '{}'", target.name, kept.name);
+    }
+
+    // Its tables are no part of a record.
+    void unread(const Definition& definition) {
+        for (const Statement& statement : definition.body)
+            for (const BufferId filled : filled_by(statement))
+                require(program_[filled].storage == Storage::Scratch, "'{}' is read",
+                        program_[filled].name);
     }
 
     // They fill the records that they compute.

@@ -51,6 +51,7 @@
 #include "passes/lanes/read_places.hpp"
 #include "passes/lanes/separate_aggregations.hpp"
 #include "passes/lanes/separate_counts.hpp"
+#include "passes/lanes/skip_unread.hpp"
 #include "passes/lanes/tabulate_clearances.hpp"
 #include "passes/lanes/test_cheap_first.hpp"
 #include "passes/lanes/test_equalities_first.hpp"
@@ -460,6 +461,12 @@ constexpr Pass in_order[] = {
      "definitions know that the state stays as it is where an action chooses nothing",
      {"evaluate_together"},
      "loops have their final form, and what is shared stands before them"},
+    {"skip_unread",
+     Phase::Lanes,
+     skip_unread,
+     "what only definitions read that an action may skip is skipped with them",
+     {"keep_unchosen"},
+     "it says which definitions these are"},
     {"name_elements",
      Phase::Lanes,
      name_elements,

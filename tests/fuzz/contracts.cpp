@@ -75,14 +75,38 @@ ir::Program with_copy(ir::Program program, std::size_t number) {
     ir::Definition& definition = program.step[number];
     const ir::Nest nest = ir::nest_of(std::get<ir::Loop>(definition.body.back().form));
     ir::Store store = std::get<ir::Store>(nest.body->back().form);
-    store.value = ir::Builder(program).load(definition.unchosen->kept, store.indices);
+    store.value = ir::Builder(program).load(*definition.unchosen->kept, store.indices);
     definition.body = ir::looped({{std::move(store)}}, nest.variables);
     definition.unchosen.reset();
     return program;
 }
 
-// Emitted code copies a table where an action chooses nothing, the interpreter computes it
-// (passes/lanes/keep_unchosen.hpp).
+// All tables that a definition fills are zero.
+void fill_with_zeros(ir::Program& program, ir::Block& block) {
+    for (ir::Statement& statement : block) {
+        if (auto* loop = std::get_if<ir::Loop>(&statement.form))
+            fill_with_zeros(program, loop->body);
+        if (auto* spread = std::get_if<ir::Spread>(&statement.form))
+            spread->bits = ir::Builder(program).constant(std::int64_t{0});
+        auto* store = std::get_if<ir::Store>(&statement.form);
+        if (!store) continue;
+        const ir::Scalar scalar = program[store->target].scalar;
+        ir::Builder builder(program);
+        store->value = scalar == ir::Scalar::Bool  ? builder.constant(false)
+                       : scalar == ir::Scalar::Int ? builder.constant(std::int64_t{0})
+                                                   : builder.constant(0.0);
+    }
+}
+ir::Program with_zeros(ir::Program program, std::size_t number) {
+    ir::Block body = std::move(program.step[number].body);
+    fill_with_zeros(program, body);
+    program.step[number].body = std::move(body);
+    return program;
+}
+
+// Where an action chooses nothing, emitted code copies a table that the interpreter computes
+// (passes/lanes/keep_unchosen.hpp), or leaves out what nothing reads
+// (passes/lanes/skip_unread.hpp).
 std::optional<std::string> difference_of_copies(const ir::Program& program,
                                                 const std::vector<Situation>& tried,
                                                 std::uint64_t seed) {
@@ -90,9 +114,10 @@ std::optional<std::string> difference_of_copies(const ir::Program& program,
         const auto& unchosen = program.step[i].unchosen;
         if (!unchosen) continue;
         const std::vector<Situation> still = with_nothing_chosen(program, tried, unchosen->choices);
-        if (auto text = difference(program, story(program, still, seed),
-                                   story(with_copy(program, i), still, seed),
-                                   {.relative = 0, .not_finite = program.assumes_finite}))
+        if (auto text = difference(
+                program, story(program, still, seed),
+                story(unchosen->kept ? with_copy(program, i) : with_zeros(program, i), still, seed),
+                {.relative = 0, .not_finite = program.assumes_finite}))
             return "where nothing is chosen: " + *text;
     }
     return std::nullopt;
@@ -142,7 +167,7 @@ Contracts check_alone(const ir::Program& program, const PassOptions& options, Va
         if (const auto text = difference(program, before, after, tolerance)) {
             result.breaches.push_back({history[i].pass, *text});
         }
-        if (history[i].pass == "keep_unchosen")
+        if (history[i].pass == "keep_unchosen" || history[i].pass == "skip_unread")
             if (const auto text = difference_of_copies(history[i].program, tried, seed))
                 result.breaches.push_back({history[i].pass, *text});
         before = std::move(after);

@@ -254,8 +254,13 @@ struct CpfWriter {
             body.push_back(std::move(each.statement));
         }
         tree::Block of_group = std::exchange(result.functions, std::move(before));
+        const bool all_keep = std::ranges::all_of(
+            std::span(definitions).subspan(begin, end - begin),
+            [](const ir::Definition& each) { return each.unchosen->kept.has_value(); });
         Call call = add(name, uses, std::move(body),
-                        "These CPFs keep the state where the action chooses nothing.");
+                        all_keep ? "These CPFs keep the state where the action chooses nothing."
+                                 : "These CPFs keep the state where the action chooses nothing, or "
+                                   "only such ones read them.");
         append(result.functions, std::move(of_group));
         return call;
     }

@@ -163,21 +163,25 @@ void FunctionBody::block(const ir::Block& block) {
 // if (rddl::keep_unchosen(next.seen, state.seen, action.use)) return;
 // if (rddl::keep_unchosen(rddl::tables(next.seen, next.lost), rddl::tables(state.seen, state.lost),
 //                         action.use)) return;
+// if (rddl::is_unchosen(action.use)) return;
 void FunctionBody::keep_unchosen(std::span<const ir::Definition> definitions) {
     tree::Expressions next, state;
     for (const ir::Definition& definition : definitions) {
+        if (!definition.unchosen->kept) continue;
         next.push_back(expressions_.target(definition.target, {}));
-        state.push_back(expressions_.record(definition.unchosen->kept));
+        state.push_back(expressions_.record(*definition.unchosen->kept));
     }
     const auto one_or_all = [](tree::Expressions tables) {
         return tables.size() == 1 ? std::move(tables.front())
                                   : tree::call("rddl::tables", std::move(tables));
     };
-    tree::Expressions arguments =
-        tree::list(one_or_all(std::move(next)), one_or_all(std::move(state)));
+    const bool keeps = !next.empty();
+    tree::Expressions arguments;
+    if (keeps) arguments = tree::list(one_or_all(std::move(next)), one_or_all(std::move(state)));
     append(arguments, tables(definitions.front().unchosen->choices));
-    statements_.push_back({tree::If{tree::call("rddl::keep_unchosen", std::move(arguments)),
-                                    tree::Statement{tree::word("return")}}});
+    const char* const test = keeps ? "rddl::keep_unchosen" : "rddl::is_unchosen";
+    statements_.push_back(
+        {tree::If{tree::call(test, std::move(arguments)), tree::Statement{tree::word("return")}}});
 }
 
 tree::Expressions FunctionBody::tables(const std::vector<ir::BufferId>& buffers) {
