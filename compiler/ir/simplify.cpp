@@ -180,7 +180,7 @@ class Simplifier {
     std::optional<NodeId> both() {
         if (is(a_, true) || a_ == b_) return b_;
         if (is(b_, true)) return a_;
-        if (is(a_, false) && droppable(b_)) return a_;
+        if (is(a_, false) && !may_fault(b_)) return a_;  // draws that nobody needs are not made
         if (is(b_, false) && droppable(a_)) return b_;
         if (may_fault(b_)) return builder_.select(a_, b_, builder_.constant(false));
         return absorption(Operator::Or);
@@ -189,7 +189,7 @@ class Simplifier {
     std::optional<NodeId> either() {
         if (is(a_, false) || a_ == b_) return b_;
         if (is(b_, false)) return a_;
-        if (is(a_, true) && droppable(b_)) return a_;
+        if (is(a_, true) && !may_fault(b_)) return a_;
         if (is(b_, true) && droppable(a_)) return b_;
         if (may_fault(b_)) return builder_.select(a_, builder_.constant(true), b_);
         return absorption(Operator::And);

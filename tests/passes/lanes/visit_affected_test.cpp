@@ -43,6 +43,16 @@ TEST(VisitAffected, ListsTheObjectsThatReadEachBool) {
     EXPECT_EQ(ir::print(again), ir::print(program));
 }
 
+// A conjunction with a draw is false without its first part, as a branch is.
+TEST(VisitAffected, ReadsConjunctionsAsBranches) {
+    passes::Report report;
+    passes::visit_affected(
+        in_words("if (go) then (exists_{?p : obj} [NEXT(?p, ?o) ^ at(?p)]) ^ Bernoulli(0.5) "
+                 "else at(?o)"),
+        report);
+    EXPECT_EQ(report["loops over the objects that few bools affect"], 1);
+}
+
 TEST(VisitAffected, LeavesOthers) {
     for (const ir::Program& program :
          {in_words("if (go) then ~(exists_{?p : obj} [NEXT(?p, ?o) ^ at(?p)]) else at(?o)"),
