@@ -108,6 +108,38 @@ TEST(FloatMath, HasPowersThatAreRoundedFromDoubles) {
     }
 }
 
+// Their remainders have the bits of those of doubles, rounded, alone and in packs.
+TEST(FloatMath, HasTheRemaindersOfDoubles) {
+    constexpr float special[] = {
+        0.0f,       -0.0f, 1e-45f,   -1e-45f,   3.4e38f,
+        1.0f,       -2.5f, infinity, -infinity, std::numeric_limits<float>::quiet_NaN(),
+        6.2831855f, -7.0f, 3e6f,     -14.0f,    5e-7f};
+    const auto expect_same = [](const Floats& a, const Floats& b) {
+        const Floats together = floor_mod(a, b);
+        for (int lane = 0; lane < width; ++lane) {
+            const float exact = to_float(floor_mod(to_double(a[lane]), to_double(b[lane])));
+            for (const float found : {floor_mod(a[lane], b[lane]), together[lane]})
+                EXPECT_TRUE(bits_of(found) == bits_of(exact) ||
+                            (std::isnan(found) && std::isnan(exact)))
+                    << a[lane] << " " << b[lane];
+        }
+    };
+    for (const float a : special)
+        for (const float b : special) expect_same(a, b);
+    for (const float divisor : {6.2831855f, -0.3f, 1e-3f, 1.0f, 1e30f})
+        for (int i = 0; i < 20'000; ++i) {
+            Floats a;  // near multiples of the divisor, and between them
+            for (int lane = 0; lane < width; ++lane) {
+                const float multiple = divisor * static_cast<float>(i * 100 - 1'000'000);
+                const float steps[] = {std::nextafter(multiple, infinity),
+                                       std::nextafter(multiple, -infinity), multiple};
+                a.set(lane, lane < 3 ? steps[lane]
+                                     : multiple + divisor * static_cast<float>(lane) * 0.07f);
+            }
+            expect_same(a, divisor);
+        }
+}
+
 // Angles up to 2^13 have a small absolute error, though zeros are not met to the last bit.
 TEST(FloatMath, TurnsFarAngles) {
     for (float angle = -8192; angle < 8192; angle += 0.37f) {

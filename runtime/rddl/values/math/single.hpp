@@ -209,6 +209,25 @@ R atan(R a) {
     return to_float(detail::single::arc_tangent(to_double(a)));
 }
 
+// The same bits as those of doubles, rounded. The quotient of floats is off by an eighth at most,
+// so the rest after the nearest integer is less than the divisor; doubles compute it without
+// rounding.
+template <FloatLanes R>
+R floor_mod(R a, R b) {
+    constexpr float greatest_quotient = 0x1p21f;
+    const auto sign = bits_of(b) & std::uint32_t{0x8000'0000};
+    const R dividend = real_of_bits(bits_of(a) ^ sign);
+    const R divisor = real_of_bits(bits_of(b) ^ sign);
+    const R quotient = dividend / divisor;
+    const auto ordinary =
+        absolute(quotient) <= greatest_quotient && divisor <= std::numeric_limits<float>::max();
+    if (any(!ordinary)) return to_float(floor_mod(to_double(a), to_double(b)));
+    const R nearest = (quotient + detail::single::rounder) - detail::single::rounder;
+    const auto rest = to_double(dividend) - to_double(nearest) * to_double(divisor);
+    const auto remainder = select(rest < 0.0, rest + to_double(divisor), rest) + 0.0;  // no -0
+    return real_of_bits(bits_of(to_float(remainder)) ^ sign);
+}
+
 // -------------------------------------------------------------------------- the others
 
 #define RDDL_OF_FLOATS(function)                 \
@@ -233,7 +252,6 @@ RDDL_OF_FLOATS(tanh)
 RDDL_OF_FLOATS(log)
 RDDL_OF_FLOATS(atan2)
 RDDL_OF_FLOATS(hypot)
-RDDL_OF_FLOATS(floor_mod)
 #undef RDDL_OF_FLOATS
 
 }  // namespace rddl
