@@ -180,7 +180,7 @@ class Simplifier {
     std::optional<NodeId> both() {
         if (is(a_, true) || a_ == b_) return b_;
         if (is(b_, true)) return a_;
-        if (is(a_, false) && !may_fault(b_)) return a_;  // draws that nobody needs are not made
+        if (is(a_, false) && !may_fault(b_)) return a_;  // a draw of b_ is not needed
         if (is(b_, false) && droppable(a_)) return b_;
         if (may_fault(b_)) return builder_.select(a_, b_, builder_.constant(false));
         return absorption(Operator::Or);

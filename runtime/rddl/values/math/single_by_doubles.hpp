@@ -38,7 +38,7 @@ inline constexpr double exp_2_coefficients[] = {
     0.0013334080147993901, 0.00015466930715835357, 1.5165794997842649e-05,
 };
 
-// What the first part of pi / 2 for doubles leaves of it.
+// This is pi / 2 without its first part for doubles.
 inline constexpr double half_pi_rest = detail::half_pi_parts[1] + detail::half_pi_parts[2];
 
 // All of them are for doubles that are floats, alone or in packs.
