@@ -128,7 +128,7 @@ RDDL_ALWAYS_INLINE R polynomial(const Number (&coefficients)[n], R x) {
     const R square = x * x;
     const R fourth = square * square;
     if constexpr (FloatLanes<R> && n > 8) {
-        // No eighth power, which is subnormal for floats below 2e-5: that takes a hundred cycles.
+        // Without x^8, which is subnormal for floats below 2e-5: that takes a hundred cycles.
         const R powers[] = {x, square, fourth};
         return polynomial_part<0, 4>(coefficients, powers) +
                polynomial_part<4, n - 4>(coefficients, powers) * fourth;
