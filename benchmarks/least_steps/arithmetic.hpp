@@ -78,11 +78,11 @@ RDDL_INLINE SinCos<rddl::Lanes<double, n>> sin_cos(const rddl::Lanes<double, n>&
     return {negated_by_bit(quadrants, 1, first_if_even(quadrants, sin, cos)),
             negated_by_bit(next, 1, first_if_even(quadrants, cos, sin))};
 }
-// The compiler sees that both have the same parts.
 template <int n>
 RDDL_INLINE SinCos<rddl::Lanes<float, n>> sin_cos(const rddl::Lanes<float, n>& a) {
-    using rddl::detail::single::sine;
-    return {sine(a, std::uint32_t{0}), sine(a, std::uint32_t{1})};
+    using namespace rddl::detail::single;
+    const auto parts = near_circle(a);
+    return {sine(parts, std::uint32_t{0}), sine(parts, std::uint32_t{1})};
 }
 
 }  // namespace least_steps
