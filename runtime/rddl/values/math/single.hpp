@@ -209,7 +209,7 @@ R atan(R a) {
     return to_float(detail::single::arc_tangent(to_double(a)));
 }
 
-// The same bits as those of doubles, rounded. The quotient of floats is off by an eighth at most,
+// The same bits as those of doubles, rounded. The quotient of floats is off by less than 0.2,
 // so the rest after the nearest integer is less than the divisor; doubles compute it without
 // rounding.
 template <FloatLanes R>
