@@ -63,15 +63,9 @@ struct Bicycle {
         return side * 7.716045061729 * turn;
     }
 
-    // A double's quotient, rounded to float, is the power of floats.
-    template <int n>
-    static RDDL_INLINE rddl::Lanes<double, n> per_square(const rddl::Lanes<double, n>& a) {
-        return rddl::power(a, rddl::Lanes<double, n>{-2});
-    }
-    template <int n>
-    static RDDL_INLINE rddl::Lanes<float, n> per_square(const rddl::Lanes<float, n>& a) {
-        const auto wide = rddl::to_double(a);
-        return rddl::to_float(1.0 / (wide * wide));
+    template <class Real>
+    static RDDL_INLINE Real per_square(const Real& a) {
+        return rddl::power(a, Real{-2});
     }
 };
 
