@@ -485,12 +485,33 @@ std::vector<const Block*> blocks_of(const Program& program) {
 }
 
 bool fills_tables(const Block& block) {
-    bool fills = false;
-    for_each_statement<Store>(block, [&](const Store&) { fills = true; });
-    for_each_statement<Spread>(block, [&](const Spread&) { fills = true; });
-    for_each_statement<Visit>(block, [&](const Visit&) { fills = true; });
-    for_each_statement<Call>(block, [&](const Call&) { fills = true; });
-    return fills;
+    return !buffers_filled_by(block).empty();
+}
+
+std::set<BufferId> buffers_filled_by(const Block& block) {
+    std::set<BufferId> filled;
+    for_each_statement<Store>(block, [&](const Store& store) { filled.insert(store.target); });
+    for_each_statement<Spread>(block, [&](const Spread& spread) { filled.insert(spread.target); });
+    for_each_statement<Visit>(block, [&](const Visit& visit) {
+        for (const Mark& mark : visit.marks) filled.insert(mark.target);
+    });
+    for_each_statement<Call>(block, [&](const Call& call) { filled.insert(call.output.buffer); });
+    return filled;
+}
+
+std::set<BufferId> buffers_read_by(const Program& program, const std::vector<NodeId>& roots) {
+    std::set<BufferId> read;
+    std::set<NodeId> seen;
+    std::vector<NodeId> open = roots;
+    while (!open.empty()) {
+        const NodeId id = open.back();
+        open.pop_back();
+        if (!seen.insert(id).second) continue;
+        if (const auto buffer = buffer_read_by(program[id])) read.insert(*buffer);
+        const std::vector<NodeId> operands = operands_of(program[id]);
+        open.insert(open.end(), operands.begin(), operands.end());
+    }
+    return read;
 }
 
 bool calls_functions(const Block& block) {

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <optional>
+#include <set>
 #include <span>
 #include <vector>
 
@@ -129,6 +130,11 @@ std::vector<NodeId> roots_of(const Block& block);
 std::vector<NodeId> roots_of(const Computation& computation);
 // All of the program: the step, the reward, the conditions and the policy.
 std::vector<NodeId> roots_of(const Program& program);
+
+// The buffers that these nodes and those below them read.
+std::set<BufferId> buffers_read_by(const Program& program, const std::vector<NodeId>& roots);
+// The buffers that statements fill, beside those that calls work in.
+std::set<BufferId> buffers_filled_by(const Block& block);
 
 // Whether each node, by NodeId::index, is part of something that the program evaluates.
 std::vector<bool> reachable_nodes(const Program& program);

@@ -493,10 +493,9 @@ class Verifier {
 
     // Its tables are no part of a record.
     void unread(const Definition& definition) {
-        for (const Statement& statement : definition.body)
-            for (const BufferId filled : filled_by(statement))
-                require(program_[filled].storage == Storage::Scratch, "'{}' is read",
-                        program_[filled].name);
+        for (const BufferId filled : buffers_filled_by(definition.body))
+            require(program_[filled].storage == Storage::Scratch, "'{}' is read",
+                    program_[filled].name);
     }
 
     // They fill the records that they compute.
@@ -537,28 +536,16 @@ class Verifier {
         Scope scope;
         for (const Statement& each : statements) {
             statement(each, scope, readable);
-            for (BufferId target : filled_by(each)) {
+            // Inputs that a call has worked in hold nothing any more.
+            for_each_statement<Call>({each}, [&](const Call& call) {
+                for (BufferId written : written_buffers(call)) defined_.erase(written);
+            });
+            for (BufferId target : buffers_filled_by({each})) {
                 const int first = defined_.emplace(target, body_).first->second;
                 require(first == body_, "'{}' is computed twice", program_[target].name);
             }
         }
         return scope;
-    }
-
-    // Inputs that a call has worked in hold nothing any more.
-    std::set<BufferId> filled_by(const Statement& each) {
-        std::set<BufferId> filled;
-        for_each_statement<Store>({each}, [&](const Store& store) { filled.insert(store.target); });
-        for_each_statement<Spread>({each},
-                                   [&](const Spread& spread) { filled.insert(spread.target); });
-        for_each_statement<Visit>({each}, [&](const Visit& visit) {
-            for (const Mark& mark : visit.marks) filled.insert(mark.target);
-        });
-        for_each_statement<Call>({each}, [&](const Call& call) {
-            for (BufferId written : written_buffers(call)) defined_.erase(written);
-            filled.insert(call.output.buffer);
-        });
-        return filled;
     }
 
     void computation(std::string_view name, const Computation& computation, Scalar expected,

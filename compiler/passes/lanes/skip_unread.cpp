@@ -24,7 +24,7 @@ class Skipping {
 
     ir::Program run() && {
         for (const ir::Definition& definition : program_.step)
-            reads_.push_back(tables_read(ir::roots_of(definition.body)));
+            reads_.push_back(ir::buffers_read_by(program_, ir::roots_of(definition.body)));
         find_reads_behind_step();
         // Readers stand behind what they read, so that a chain of tables is found from its end.
         for (std::size_t k = program_.step.size(); k-- > 0;)
@@ -64,8 +64,8 @@ class Skipping {
         before.target = std::get<ir::Store>(body.front().form).target;
         before.body.resize(1);
         program_.step[k].body = rest;
-        const Tables read = tables_read(ir::roots_of(before.body));
-        reads_[k] = tables_read(ir::roots_of(rest));
+        const Tables read = ir::buffers_read_by(program_, ir::roots_of(before.body));
+        reads_[k] = ir::buffers_read_by(program_, ir::roots_of(rest));
         insert(program_.step, k, std::move(before));
         insert(reads_, k, read);
         return true;
@@ -79,21 +79,16 @@ class Skipping {
 
     // The tables of Scratch that the statements fill; nothing if these may not be skipped.
     std::optional<Tables> tables_of_skippable(const ir::Block& body) const {
-        bool may_skip = !ir::calls_functions(body);
-        Tables filled;
-        ir::for_each_statement<ir::Visit>(body, [&](const ir::Visit&) { may_skip = false; });
-        ir::for_each_statement<ir::Store>(
-            body, [&](const ir::Store& store) { filled.insert(store.target); });
-        ir::for_each_statement<ir::Spread>(
-            body, [&](const ir::Spread& spread) { filled.insert(spread.target); });
-        may_skip =
-            may_skip &&
-            std::ranges::none_of(ir::roots_of(body),
-                                 [&](ir::NodeId id) { return properties_[id.index].may_fault; }) &&
-            std::ranges::all_of(filled, [&](ir::BufferId table) {
-                return program_[table].storage == ir::Storage::Scratch;
-            });
-        return may_skip ? std::optional(std::move(filled)) : std::nullopt;
+        bool visits = false;
+        ir::for_each_statement<ir::Visit>(body, [&](const ir::Visit&) { visits = true; });
+        const bool may_fault = std::ranges::any_of(
+            ir::roots_of(body), [&](ir::NodeId id) { return properties_[id.index].may_fault; });
+        if (visits || may_fault || ir::calls_functions(body)) return std::nullopt;
+        Tables filled = ir::buffers_filled_by(body);
+        const bool are_scratch = std::ranges::all_of(filled, [&](ir::BufferId table) {
+            return program_[table].storage == ir::Storage::Scratch;
+        });
+        return are_scratch ? std::optional(std::move(filled)) : std::nullopt;
     }
 
     // The first definition behind `k` that reads one of these tables, if the same test skips all
@@ -143,7 +138,7 @@ class Skipping {
 
     void find_reads_behind_step() {
         const auto add = [&](const ir::Computation& computation) {
-            read_behind_step_.merge(tables_read(ir::roots_of(computation)));
+            read_behind_step_.merge(ir::buffers_read_by(program_, ir::roots_of(computation)));
         };
         add(program_.reward);
         for (const auto* conditions :
@@ -155,21 +150,6 @@ class Skipping {
                     read_behind_step_.insert(input.buffer);
             });
         }
-    }
-
-    Tables tables_read(const std::vector<ir::NodeId>& roots) const {
-        Tables tables;
-        std::set<ir::NodeId> seen;
-        std::vector<ir::NodeId> open = roots;
-        while (!open.empty()) {
-            const ir::NodeId id = open.back();
-            open.pop_back();
-            if (!seen.insert(id).second) continue;
-            if (const auto table = ir::buffer_read_by(program_[id])) tables.insert(*table);
-            const std::vector<ir::NodeId> operands = ir::operands_of(program_[id]);
-            open.insert(open.end(), operands.begin(), operands.end());
-        }
-        return tables;
     }
 
     ir::Program program_;

@@ -38,9 +38,7 @@ class Affecting {
         if (loop.affected || !loop.as_words || !store || !are_many(program_, nest)) return;
         // Without draws, all objects in registers take few instructions.
         if (!builder_.properties(store->value).random) return;
-        std::set<ir::BufferId> read;
-        collect_tables(store->value, read);
-        for (const ir::BufferId few : read) {
+        for (const ir::BufferId few : ir::buffers_read_by(program_, {store->value})) {
             if (!is_few(few, nest) || !is_false_without(few, store->value, nest)) continue;
             const auto readers = readers_of(few, store->value, nest);
             if (!readers) continue;
@@ -48,12 +46,6 @@ class Affecting {
             ++report_["loops over the objects that few bools affect"];
             return;
         }
-    }
-
-    void collect_tables(ir::NodeId id, std::set<ir::BufferId>& read) const {
-        if (const auto buffer = ir::buffer_read_by(program_[id])) read.insert(*buffer);
-        for (const ir::NodeId operand : ir::operands_of(program_[id]))
-            collect_tables(operand, read);
     }
 
     bool is_few(ir::BufferId id, const ir::Nest& nest) const {
