@@ -49,7 +49,8 @@ constexpr OnesOfElements ones_of_elements(const std::array<T, n>& table) {
     return all;
 }
 
-// The place of the one that k others are below, for each element of a table; 0 if there is none.
+// The place of the one that k others are below, for each element of a table; 0 if it has
+// fewer ones.
 template <const auto& table, int k>
 inline constexpr auto places_of_ones = mapped(table, [](std::uint64_t bits) {
     for (int below = 0; below < k; ++below) bits &= bits - 1;

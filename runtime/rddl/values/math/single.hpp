@@ -109,14 +109,11 @@ RDDL_ALWAYS_INLINE Circle<R> near_circle(R a) {
 // those do for the last two bits of a double: floats have 29 bits less.
 template <class R>
 RDDL_ALWAYS_INLINE Circle<R> far_circle(R a) {
-    const auto angle = to_double(a);
-    const auto rounded = angle * detail::two_over_pi + detail::rounder;
-    const auto quadrants = rounded - detail::rounder;
-    const auto r = (angle - quadrants * detail::half_pi_parts[0]) - quadrants * half_pi_rest;
+    const auto [quadrants, r] = far_angle(to_double(a));
     const auto z = r * r;
     return {to_float(r + r * (z * polynomial(detail::sin_coefficients, z))),
             to_float((1.0 - 0.5 * z) + z * z * polynomial(detail::cos_coefficients, z)),
-            real_of_bits(lower_halves(bits_of(rounded)))};
+            real_of_bits(lower_halves(bits_of(quadrants)))};
 }
 
 // Requires |a| <= detail::greatest_angle.

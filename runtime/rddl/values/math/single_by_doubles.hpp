@@ -43,14 +43,26 @@ inline constexpr double half_pi_rest = detail::half_pi_parts[1] + detail::half_p
 
 // All of them are for doubles that are floats, alone or in packs.
 
+// An angle: whole quadrants, the number of which stands in the last bits, and what remains.
+// Requires |a| <= detail::greatest_angle.
 template <class R>
-RDDL_ALWAYS_INLINE R tangent(R a) {
+struct FarAngle {
+    R quadrants;
+    R rest;
+};
+template <class R>
+RDDL_ALWAYS_INLINE FarAngle<R> far_angle(R a) {
     const R rounded = a * detail::two_over_pi + detail::rounder;
     const R quadrants = rounded - detail::rounder;
-    const R r = (a - quadrants * detail::half_pi_parts[0]) - quadrants * half_pi_rest;
+    return {rounded, (a - quadrants * detail::half_pi_parts[0]) - quadrants * half_pi_rest};
+}
+
+template <class R>
+RDDL_ALWAYS_INLINE R tangent(R a) {
+    const auto [quadrants, r] = far_angle(a);
     const R z = r * r;
     const R dividend = r * polynomial(tan_dividend, z), divisor = polynomial(tan_divisor, z);
-    const auto turns = bits_of(rounded);
+    const auto turns = bits_of(quadrants);
     const R quotient =
         first_if_even(turns, dividend, -divisor) / first_if_even(turns, divisor, dividend);
     return detail::with_great_angles(a, quotient, [](double x) { return std::tan(unknown(x)); });
