@@ -191,11 +191,16 @@ def not_run_of(line: str) -> NotRun:
     return NotRun(label, 1, reason)
 
 
+def documented_comparisons(jax_version: str) -> list[Comparison]:
+    """The rows of the document."""
+    lines = parts_around("jax by problem")[2].splitlines()
+    return [comparison_of(row, jax_version) for row in [line for line in lines if line.startswith("|")][2:]]
+
+
 def with_kept_lines(new: list[Comparison | NotRun], jax_version: str) -> list[Comparison | NotRun]:
     """What the document says of other instances, and the new entries, by name."""
     lines = parts_around("jax by problem")[2].splitlines()
-    rows = [line for line in lines if line.startswith("|")][2:]
-    kept = [comparison_of(row, jax_version) for row in rows]
+    kept = documented_comparisons(jax_version)
     kept += [not_run_of(line) for line in lines if line.startswith("* ")]
     labels = {entry.label for entry in new}
     return sorted([*new, *(entry for entry in kept if entry.label not in labels)], key=lambda entry: entry.label)

@@ -167,12 +167,15 @@ def build_batches(options: argparse.Namespace, real: str = "double") -> Path:
     return batches
 
 
-def build_simulator(problem: str, rddlc_options: list[str], options: argparse.Namespace) -> Path:
-    (case,) = [c for c in repository_cases(problem) if c.instance == REFERENCES[problem].instance]
-    source = options.folder / f"{problem}.cpp"
+def build_simulator(
+    problem: str, instance: str, rddlc_options: list[str], options: argparse.Namespace, real: str = "double"
+) -> Path:
+    """What rddlc emits, with the batches of build_batches for the same reals."""
+    (case,) = [c for c in repository_cases(problem) if c.instance == instance]
+    source = options.folder / f"{problem}.{real}.cpp"
     simulator = source.with_suffix(".so")
     run([options.build / "bin/rddlc", *rddlc_options, case.domain_path, case.instance_path, "-o", source])
-    links = ["-DRDDL_ENTRY=rddl_simulator_entry", "-DRDDL_LINKS_BATCHES", options.folder / "batches.double.o"]
+    links = ["-DRDDL_ENTRY=rddl_simulator_entry", "-DRDDL_LINKS_BATCHES", options.folder / f"batches.{real}.o"]
     run([options.cxx, *FLAGS, *LINKING, *links, f"-I{ROOT / 'runtime'}", source, "-o", simulator])
     return simulator
 
@@ -181,7 +184,7 @@ def measure(
     problem: str, rddlc_options: list[str], reference: Path, program: Path, options: argparse.Namespace
 ) -> list[dict]:
     """By size of batch: differences, and the median speeds of both sides."""
-    simulator = build_simulator(problem, rddlc_options, options)
+    simulator = build_simulator(problem, REFERENCES[problem].instance, rddlc_options, options)
     sizes = json.loads(run([program, simulator, reference, options.seconds, options.rounds]))["sizes"]
     for size in sizes:
         size["difference"] = float("inf") if size["difference"] is None else size["difference"]

@@ -21,13 +21,9 @@ import sys
 from dataclasses import dataclass
 from pathlib import Path
 
-from compare_jax import comparison_of
-from document import ROOT, machine_text, markdown_table, merged_rows, parts_around, write_section
-from handwritten import FLAGS, INLINING, LINKING, build_batches, build_measuring_program, run
-
-sys.path.append(str(ROOT / "tests/conformance"))
-
-from problems import repository_cases  # noqa: E402
+from compare_jax import documented_comparisons
+from document import ROOT, machine_text, markdown_table, merged_rows, write_section
+from handwritten import FLAGS, INLINING, LINKING, build_batches, build_measuring_program, build_simulator, run
 
 FOLDER = ROOT / "benchmarks/least_steps"
 
@@ -81,26 +77,15 @@ def build_kernel(problem: str, real: str, options: argparse.Namespace) -> Path:
     return library
 
 
-def build_simulator(problem: str, real: str, options: argparse.Namespace) -> Path:
-    (case,) = [c for c in repository_cases(problem) if c.instance == KERNELS[problem].instance]
-    source = options.folder / f"{problem}.{real}.cpp"
-    simulator = source.with_suffix(".so")
-    run([options.build / "bin/rddlc", *REALS[real], case.domain_path, case.instance_path, "-o", source])
-    links = ["-DRDDL_ENTRY=rddl_simulator_entry", "-DRDDL_LINKS_BATCHES", options.folder / f"batches.{real}.o"]
-    run([options.cxx, *FLAGS, *LINKING, *links, f"-I{ROOT / 'runtime'}", source, "-o", simulator])
-    return simulator
-
-
 def measure(problem: str, real: str, program: Path, options: argparse.Namespace) -> Least:
-    simulator, kernel = build_simulator(problem, real, options), build_kernel(problem, real, options)
+    simulator = build_simulator(problem, KERNELS[problem].instance, REALS[real], options, real)
+    kernel = build_kernel(problem, real, options)
     return Least(**json.loads(run([program, simulator, kernel, options.seconds])))
 
 
 def tenths_of_jax() -> dict[str, float]:
     """By instance: nanoseconds."""
-    rows = [line for line in parts_around("jax by problem")[2].splitlines() if line.startswith("|")][2:]
-    comparisons = [comparison_of(row, "") for row in rows]
-    return {c.label: 1e8 / c.jax for c in comparisons}
+    return {c.label: 1e8 / c.jax for c in documented_comparisons("")}
 
 
 COLUMNS = ("instance", "a tenth of jax's", "kernel, floats", "step, floats", "kernel, doubles", "step, doubles")

@@ -6,29 +6,20 @@
 // prints a line of JSON, speeds in steps for a second of processor time, which other programs do
 // not inflate. REFERENCE.so is made of reference.cpp.
 #include "agreement.hpp"
+#include "benchmarks/shared_function.hpp"
 #include "measure/measurement.hpp"
 
-#include <dlfcn.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cstdlib>
 #include <iostream>
 #include <stdexcept>
-#include <string>
 
 namespace {
 
+using benchmarks::load;
 using nlohmann::json;
-
-template <class Function>
-Function* load(const char* file, const char* name) {
-    void* const library = dlopen(file, RTLD_NOW | RTLD_LOCAL);
-    if (!library) throw std::runtime_error(dlerror());
-    const auto function = reinterpret_cast<Function*>(dlsym(library, name));
-    if (!function) throw std::runtime_error(std::string(file) + " has no function " + name);
-    return function;
-}
 
 // Legal actions are slow to draw, and the first steps of a batch are all near the initial state.
 constexpr double least_seconds_of_drawing = 2;

@@ -6,13 +6,13 @@
 // prints a line of JSON: the nanoseconds of a step for one environment, of the kernel and of the
 // simulator in a batch of its best size, and how many values were compared. It fails if one is not
 // the same. KERNEL.so is made of kernel.cpp.
+#include "benchmarks/shared_function.hpp"
 #include "interface.hpp"
 #include "measure/measurement.hpp"
 #include "solvers/batches/batch.hpp"
 
 #include <rddl/random/random.hpp>
 
-#include <dlfcn.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -26,17 +26,9 @@
 
 namespace {
 
+using benchmarks::load;
 using least_steps::Kernel;
 using rddlc::workbench::RandomCourse;
-
-template <class Function>
-Function* load(const char* file, const char* name) {
-    void* const library = dlopen(file, RTLD_NOW | RTLD_LOCAL);
-    if (!library) throw std::runtime_error(dlerror());
-    const auto function = reinterpret_cast<Function*>(dlsym(library, name));
-    if (!function) throw std::runtime_error(std::string(file) + " has no function " + name);
-    return function;
-}
 
 // A batch that plays a course, and for each environment what a kernel has to be told.
 class Play {
