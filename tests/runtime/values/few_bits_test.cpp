@@ -1,5 +1,7 @@
 // Tests and counts of few bits in packs: those of ints. This file is also built for other
 // instruction sets than the compiler's default (CMakeLists.txt).
+#include "random_masks.hpp"
+
 #include <rddl/simulator.hpp>
 
 #include <gtest/gtest.h>
@@ -7,7 +9,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <random>
 
 namespace rddl {
 namespace {
@@ -49,13 +50,8 @@ void expect_those_of_ints_in_tables(const Narrow& narrow, const Wide& wide) {
 
 template <std::size_t count>
 void expect_bits_of_ints() {
-    std::mt19937_64 random(count);
-    std::array<Bools, count> some{}, others{};
-    for (std::size_t i = 0; i < count; ++i)
-        for (int lane = 0; lane < width; ++lane) {
-            some[i].set(lane, random() % 2 == 0);
-            others[i].set(lane, random() % 3 == 0);
-        }
+    const RandomMasks<count> masks;
+    const auto& [some, others] = masks;
     const auto a = narrow_bits(some), b = narrow_action_bits(others);
     const auto c = bits(some), d = bits(others);
     const std::int64_t all = -1;

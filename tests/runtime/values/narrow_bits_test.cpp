@@ -1,5 +1,7 @@
 // Few bools of packs as bits in narrow lanes: what 64 bits give. This file is also built for other
 // instruction sets than the compiler's default (CMakeLists.txt).
+#include "random_masks.hpp"
+
 #include <rddl/simulator.hpp>
 
 #include <gtest/gtest.h>
@@ -7,7 +9,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <random>
 #include <utility>
 
 namespace rddl {
@@ -15,7 +16,6 @@ namespace {
 
 constexpr int width = 16;
 using Ints = Pack<width>::Int;
-using Bools = Pack<width>::Bool;
 
 template <class A, class B>
 void expect_same(const A& a, const B& b) {
@@ -24,13 +24,8 @@ void expect_same(const A& a, const B& b) {
 
 template <std::size_t count>
 void expect_bits_of_wide_lanes() {
-    std::mt19937_64 random(count);
-    std::array<Bools, count> some{}, others{};
-    for (std::size_t i = 0; i < count; ++i)
-        for (int lane = 0; lane < width; ++lane) {
-            some[i].set(lane, random() % 2 == 0);
-            others[i].set(lane, random() % 3 == 0);
-        }
+    const RandomMasks<count> masks;
+    const auto& [some, others] = masks;
     const auto narrow = narrow_bits(some), narrow_others = narrow_action_bits(others);
     const Ints bits = rddl::bits(some), other_bits = rddl::bits(others);
     expect_same(count_ones(narrow), count_ones(bits));
