@@ -20,6 +20,7 @@
 #include "ir/verify.hpp"
 #include "model/print.hpp"
 #include "parse/parse.hpp"
+#include "passes/arithmetic/byte_ints.hpp"
 #include "passes/passes.hpp"
 #include "support/match.hpp"
 #include "support/render.hpp"
@@ -123,6 +124,8 @@ EmitOptions emit_options(const CompileOptions& options, const ir::Program& progr
             .entry = options.entry,
             .line_directives = options.line_directives,
             .lane_count = options.lane_count.value_or(ir::suitable_lane_count(program)),
+            .byte_ints = !options.lane_count && ir::suits_byte_ints(program) &&
+                         passes::has_byte_ints(program),
             .output_name = name,
             .compiler_version = version,
             .extern_headers = include_paths(options)};

@@ -21,6 +21,9 @@ struct EmitOptions {
     bool line_directives = false;
     // Environments that a step of a batch computes at once (8, 16, 32 or 64; 1: no packs).
     int lane_count = 16;
+    // Where registers hold 64 ints of a byte, a step computes as many environments at once, with
+    // such ints (passes/arithmetic/byte_ints.hpp).
+    bool byte_ints = false;
     // The name under which the text will be stored, for what comes after the last #line.
     std::string output_name = "simulator.cpp";
     std::string compiler_version = "";  // of rddlc

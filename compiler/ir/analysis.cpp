@@ -125,8 +125,9 @@ class Collector {
     std::optional<Range> range_of_ints(const Apply& apply,
                                        std::span<const std::optional<Range>> operands) const {
         if (apply.op == Operator::CountOnes) return Range{0, most_ones(apply.operands.front())};
-        const bool has_range = is_one_of(
-            apply.op, {Operator::Add, Operator::Subtract, Operator::Minimum, Operator::Maximum});
+        const bool has_range =
+            is_one_of(apply.op, {Operator::Add, Operator::Subtract, Operator::Negate,
+                                 Operator::Minimum, Operator::Maximum});
         if (!has_range) return std::nullopt;
         const auto range = range_of(apply.op, operands);
         const bool is_exact = range && range->lower > -exact_ints && range->upper < exact_ints;
@@ -169,12 +170,12 @@ class Collector {
         if (reduce.op == Reduction::Sum && program_[reduce.body].type == Scalar::Int)
             properties_.range = range_of_sum(reduce);
         const auto& body = range(reduce.body);
+        if (reduce.op == Reduction::Minimum || reduce.op == Reduction::Maximum)
+            properties_.range = body;
         if (program_[reduce.body].type != Scalar::Real || !body) return;
         const auto count = static_cast<double>(size);
         if (reduce.op == Reduction::Sum) properties_.range = rddlc::range_of_sum(*body, count);
         if (reduce.op == Reduction::Product) properties_.range = range_of_product(*body, count);
-        if (reduce.op == Reduction::Minimum || reduce.op == Reduction::Maximum)
-            properties_.range = body;
     }
 
     std::optional<Range> range_of_sum(const Reduce& sum) const {

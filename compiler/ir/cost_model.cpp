@@ -112,7 +112,7 @@ class BlockCost {
     void add(const Spread& spread, Place place) {
         add(spread.bits, place);
         for (const NodeId index : spread.indices) add(index, place);
-        pay(spread_cost, place, &PackCost::numbers);
+        pay(spread_cost, place, &PackCost::ints);
     }
     void add(const Loop& loop, Place place) {
         const double times = times_of(loop);
@@ -146,7 +146,7 @@ class BlockCost {
         double elements = static_cast<double>(program_[call.output.buffer].count());
         for (const TableView& input : call.inputs)
             elements += static_cast<double>(program_[input.buffer].count());
-        pay(1 + elements, place, &PackCost::numbers);
+        pay(1 + elements, place, &PackCost::reals);
     }
 
     // One environment computes them in registers.
@@ -154,7 +154,7 @@ class BlockCost {
         const auto count = static_cast<double>(call.scalars.size());
         for (const NodeId function : call.scalars)
             for (const NodeId angle : operands_of(program_[function])) add(angle, place);
-        pay(std::ceil(count / angles_at_once) * cost_of_angles + count, place, &PackCost::numbers);
+        pay(std::ceil(count / angles_at_once) * cost_of_angles + count, place, &PackCost::reals);
     }
 
     // Pays for the node where it is computed: in the innermost of the loops on which it depends.
@@ -245,17 +245,18 @@ class BlockCost {
         return !properties_.empty() && properties_[id.index].uniform;
     }
     Kind kind_of_value(NodeId id) const {
-        return program_[id].type == Scalar::Bool || is_uniform(id) ? &PackCost::block
-                                                                   : &PackCost::numbers;
+        if (is_uniform(id)) return &PackCost::block;
+        constexpr Kind kinds[] = {&PackCost::block, &PackCost::ints, &PackCost::reals};
+        return kinds[static_cast<std::size_t>(program_[id].type)];
     }
     Kind kind_of(NodeId id) const {
         const Node& node = program_[id];
         if (is_draw(node)) return &PackCost::draws;
-        const auto is_one = [&](NodeId operand) {
-            return kind_of_value(operand) == &PackCost::block;
-        };
-        return std::ranges::all_of(operands_of(node), is_one) ? kind_of_value(id)
-                                                              : &PackCost::numbers;
+        std::vector<Kind> kinds = {kind_of_value(id)};
+        for (const NodeId operand : operands_of(node)) kinds.push_back(kind_of_value(operand));
+        for (const Kind kind : {&PackCost::reals, &PackCost::ints})
+            if (std::ranges::count(kinds, kind) > 0) return kind;
+        return &PackCost::block;
     }
 
     const Program& program_;
@@ -273,7 +274,8 @@ PackCost cost_of(const Program& program, std::span<const Properties> properties)
     PackCost total;
     const auto add = [&](const BlockCost& cost, double PackCost::*block) {
         total.*block += cost.total().block;
-        total.numbers += cost.total().numbers;
+        total.ints += cost.total().ints;
+        total.reals += cost.total().reals;
         total.draws += cost.total().draws;
     };
     const auto add_computation = [&](const Computation& computation) {
@@ -345,7 +347,7 @@ double repetitions(const Program& program, const Node& binder) {
 
 double cost_of_step(const Program& program) {
     const PackCost cost = cost_of(program, {});
-    return step_cost + cost.block + cost.unchosen + cost.numbers + cost.draws;
+    return step_cost + cost.block + cost.unchosen + cost.ints + cost.reals + cost.draws;
 }
 
 PackCost pack_cost_of_step(const Program& program) {

@@ -52,8 +52,9 @@ struct PackCost {
                        // is the same in all lanes
     double unchosen = 0;  // the same of definitions that a pack skips where none of its actions
                           // chooses anything (Definition::unchosen): larger packs skip fewer
-    double numbers = 0;   // of each lane: ints and reals
-    double draws = 0;     // of each lane, where branches are taken: all that draws
+    double ints = 0;   // of each lane
+    double reals = 0;  // the same
+    double draws = 0;  // of each lane, where branches are taken: all that draws
 };
 PackCost pack_cost_of_step(const Program& program);
 

@@ -22,6 +22,10 @@ inline constexpr std::array suitable_lane_counts = {16, 64};
 // docs/lanes.md has the measurements.
 int suitable_lane_count(const Program& program);
 
+// Whether packs of 64 environments with ints of a byte suit a program whose ints are that small:
+// where steps compute with bools and ints nearly alone, as above, and not with bools alone.
+bool suits_byte_ints(const Program& program);
+
 // Why steps of this program compute one environment at a time, whatever the number of lanes, as
 // "with a policy block"; empty if they need not.
 std::string_view why_without_packs(const Program& program);

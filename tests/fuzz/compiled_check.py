@@ -11,8 +11,14 @@ from pathlib import Path
 from passes_check import Finding, is_contradictory
 from rddl_problem import Problem
 
-LEVELS = {"x86-64": "sse2", "x86-64-v3": "avx2", "x86-64-v4": "avx512vl"}  # each with a flag of processors that have it
-LANES = (16, 8, 32, 64, 1)
+# Each with a flag of processors that have it.
+LEVELS = {
+    "-march=x86-64": "sse2",
+    "-march=x86-64-v3": "avx2",
+    "-march=x86-64-v4": "avx512vl",
+    "-march=x86-64-v4 -mavx512vbmi -mavx512vpopcntdq -mgfni": "avx512vbmi",
+}
+LANES = ([], ["--lanes=16"], ["--lanes=8"], ["--lanes=32"], ["--lanes=64"], ["--lanes=1"])
 STEPS = 12
 
 
@@ -57,7 +63,7 @@ class CompiledChecker:
         problem.name = f"i{seed}"
         source, file = folder / f"{seed}.cpp", folder / f"{seed}.rddl"
         file.write_text(problem.text())
-        command = [self.options.rddlc, file, "--std=rddlc", "-w", "-o", source, f"--lanes={LANES[seed % len(LANES)]}"]
+        command = [self.options.rddlc, file, "--std=rddlc", "-w", "-o", source, *LANES[seed % len(LANES)]]
         command += ["--fast-math"] if problem.flavour == "finite" else []
         command += [f"--without={name}" for name in self.options.without]
         result = subprocess.run(command, capture_output=True, text=True)
@@ -67,7 +73,7 @@ class CompiledChecker:
         text = "".join(f'#include "{seed}.cpp"\n#undef RDDL_ENTRY\n' for seed in seeds)
         (folder / "all.cpp").write_text(text)
         root = Path(__file__).resolve().parents[2]
-        command = [*shlex.split(os.environ.get("CXX", "c++")), self.optimise, f"-march={self.level}", "-std=c++20"]
+        command = [*shlex.split(os.environ.get("CXX", "c++")), self.optimise, *self.level.split(), "-std=c++20"]
         command += ["-shared", "-fPIC", "-ffp-contract=off", f"-I{root / 'runtime'}"]
         result = subprocess.run([*command, "-o", folder / "all.so", folder / "all.cpp"], capture_output=True, text=True)
         return "" if result.returncode == 0 else result.stderr[-3000:]

@@ -86,8 +86,22 @@ TEST_F(LaneCountTest, ThePartsOfAPacksCostAreTheWhole) {
     w.program.step = {w.fill(w.next_running, w.c, connectives(3)),
                       w.assign(w.next_level, w.apply(Operator::Exp, w.load(w.level)))};
     const PackCost cost = pack_cost_of_step(w.program);
-    EXPECT_EQ(step_cost + cost.block + cost.numbers + cost.draws, cost_of_step(w.program));
-    EXPECT_EQ(cost.numbers, 1 + elementary_cost + 1);
+    EXPECT_EQ(step_cost + cost.block + cost.reals + cost.draws, cost_of_step(w.program));
+    EXPECT_EQ(cost.reals, 1 + elementary_cost + 1);
+    EXPECT_EQ(cost.ints, 0);
+}
+
+TEST_F(LaneCountTest, ByteIntsSuitBoolsAndIntsButNotRealsOrBoolsAlone) {
+    const NodeId is_small = w.apply(Operator::LessEqual, w.load(w.count), w.integer(8));
+    const auto suits = [&](const std::vector<NodeId>& bools) {
+        w.program.step.clear();
+        for (const NodeId each : bools) w.program.step.push_back(w.fill(w.next_running, w.c, each));
+        return suits_byte_ints(w.program);
+    };
+    EXPECT_TRUE(suits({is_small}));
+    EXPECT_TRUE(suits({connectives(10), is_small}));
+    EXPECT_FALSE(suits({connectives(10)}));
+    EXPECT_FALSE(suits({is_small, is_high()}));
 }
 
 }  // namespace

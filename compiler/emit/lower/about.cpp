@@ -424,7 +424,8 @@ std::string table_definition(const Unit& unit, bool has_details) {
     tree::Block definitions;
     if (unit.has_packs()) {
         const std::string real = unit.program.real == RealType::Float ? ", float" : "";
-        const std::string packed = fmt::format("rddl::Packed<{}, about::problem, {}{}>",
+        const std::string packed = fmt::format("rddl::{}<{}, about::problem, {}{}>",
+                                               unit.has_byte_ints() ? "PackedByteInts" : "Packed",
                                                type_for_packs(unit), unit.options.lane_count, real);
         definitions.push_back(tree::assign("using Packed", word(packed)));
     }

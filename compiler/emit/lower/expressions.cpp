@@ -162,7 +162,9 @@ Expression Expressions::lower(const ir::Node&, const ir::Local& local) {
 }
 
 Expression Expressions::lower(const ir::Node& node, const ir::Convert& convert) {
-    if (node.type == ir::Scalar::Int) return call("to_int", {convert.operand});
+    if (node.type == ir::Scalar::Int)
+        return call(unit_.has_byte_ints() ? "to_int<" + type(node.type) + ">" : "to_int",
+                    {convert.operand});
     if (!convert.skips_int) {
         const bool to_float = unit_.program.real == RealType::Float;
         return call(to_float ? "to_float" : "to_real", {convert.operand});

@@ -49,6 +49,8 @@ struct Unit {
     bool is_lone(const ir::Place& place) const;
     // Whether batches are stepped in packs.
     bool has_packs() const;
+    // Whether there may be packs whose ints are bytes.
+    bool has_byte_ints() const { return has_packs() && options.byte_ints; }
 
     // Whether a step makes so many draws of neighbouring sites once that one environment makes
     // their numbers in a register.

@@ -100,6 +100,7 @@ class Batch {
     Batch& operator=(const Batch&) = delete;
 
     std::int64_t environment_count() const { return options_.environment_count; }
+    const BatchOptions& options() const { return options_; }
     const Columns& action_columns() const { return action_columns_; }
 
     // Whether the engine may be given these actions, one record for each environment, or `count`
@@ -111,6 +112,12 @@ class Batch {
     }
     bool accepts_states(const std::byte* records, std::int64_t count) const {
         return records_are_valid(state_columns_, records, count);
+    }
+
+    // Whether blocks can hold these states: byte ints are for those within the fluents' bounds.
+    bool can_hold_states(const std::byte* records, std::int64_t count) const {
+        if constexpr (has_byte_ints<L>) return states_are_bounded(*problem_, records, count);
+        return true;
     }
 
     // --------------------------------------------------------------- one environment
@@ -191,7 +198,7 @@ class Batch {
         for_each_part(
             begin, count,
             [&](std::int64_t b) {
-                at(b * width).number = typename L::Int{-1};
+                at(b * width).number = typename L::Count{-1};
                 if (streams_.empty()) return;
                 for (std::int64_t i = b * width; i < (b + 1) * width; ++i)
                     streams_[index(i)] = new_stream_of(i);
@@ -491,7 +498,7 @@ class Batch {
             set_lane(episodes.steps, lane, steps[lane]);
         end_if_terminal(*engine_, episodes, Bool{true}, state(b));
         if (steps == nullptr) return;
-        const Bool are_late{episodes.steps >= typename L::Int{blocks_.horizon}};
+        const Bool are_late{episodes.steps >= typename L::Count{blocks_.horizon}};
         episodes.ends.beyond_horizon =
             episodes.ends.beyond_horizon || (are_late && !episodes.ends.faulted);
     }

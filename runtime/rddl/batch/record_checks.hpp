@@ -76,6 +76,27 @@ inline bool records_are_valid(const Columns& columns, const std::byte* records,
     return true;
 }
 
+// Whether every int of these states lies within the bounds of its fluent.
+inline bool states_are_bounded(const rddl_problem& problem, const std::byte* records,
+                               std::int64_t record_count) {
+    bool are_bounded = true;
+    for (std::int32_t f = 0; f < problem.fluent_count; ++f) {
+        const rddl_fluent& fluent = problem.fluents[f];
+        if (fluent.role != RDDL_STATE || fluent.scalar != RDDL_INT || fluent.range_type >= 0)
+            continue;
+        if (fluent.lower == nullptr || fluent.upper == nullptr) return false;
+        const std::byte* first = records + fluent.offset;
+        for (std::int64_t i = 0; i < record_count; ++i, first += problem.state_size)
+            for (std::int64_t k = 0; k < fluent.count; ++k) {
+                std::int64_t value;
+                std::memcpy(&value, first + 8 * k, sizeof value);
+                const auto number = static_cast<double>(value);
+                are_bounded &= number >= fluent.lower[k] && number <= fluent.upper[k];
+            }
+    }
+    return are_bounded;
+}
+
 // Whether it is valid for a fluent with this scalar and, if it is of objects, so many of them.
 template <class Number>
 bool is_valid_number(rddl_scalar scalar, std::int64_t objects, Number value) {

@@ -19,6 +19,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string_view>
@@ -114,14 +115,16 @@ class Functions {
         template <class Kind, class OneEngine>
         Handle(const Parts& of_maker, std::in_place_type_t<Kind> kind, const OneEngine& engine,
                const BatchOptions& options)
-            : maker(&of_maker), batch(kind, engine, *of_maker.problem, options) {}
-        Handle(const Handle& other) : maker(other.maker), batch(other.batch) {}
+            : maker(&of_maker),
+              batch(std::make_unique<AnyBatch>(kind, engine, *of_maker.problem, options)) {}
+        Handle(const Handle& other)
+            : maker(other.maker), batch(std::make_unique<AnyBatch>(*other.batch)) {}
         Handle& operator=(const Handle&) = delete;
 
         const Parts* maker;
-        AnyBatch batch;
+        std::unique_ptr<AnyBatch> batch;
         const BatchView<One>* only_one = [this] {
-            const auto* const one_by_one = std::get_if<OneByOne>(&batch);
+            const auto* const one_by_one = std::get_if<OneByOne>(batch.get());
             return one_by_one ? one_by_one->only_one() : nullptr;
         }();
 
@@ -131,14 +134,35 @@ class Functions {
         const rddl_problem& problem() const { return *maker->problem; }
         template <class Use>
         decltype(auto) use(Use&& use) {
-            return std::visit(use, batch);
+            return std::visit(use, *batch);
         }
         template <class Use>
         decltype(auto) use(Use&& use) const {
-            return std::visit(use, batch);
+            return std::visit(use, *batch);
         }
         std::int64_t environment_count() const {
             return use([](const auto& some) { return some.environment_count(); });
+        }
+        // From now on the environments are stepped one by one if packs cannot hold these states,
+        // which an episode does not reach. Throws std::bad_alloc.
+        void make_room_for(const std::byte* states, std::int64_t count) {
+            if constexpr (has_byte_ints<L>)
+                if (!use([&](const auto& all) { return all.can_hold_states(states, count); }))
+                    step_one_by_one();
+        }
+        void step_one_by_one() {
+            auto next = use([&](const auto& packed) {
+                auto all = std::make_unique<AnyBatch>(std::in_place_type<OneByOne>, maker->engine,
+                                                      problem(), packed.options());
+                Environment environment(problem(), memory_size(maker->engine));
+                for (std::int64_t i = 0; i < packed.environment_count(); ++i) {
+                    packed.get_environment(i, environment);
+                    std::get<OneByOne>(*all).set_environment(i, environment);
+                }
+                return all;
+            });
+            batch = std::move(next);
+            only_one = std::get<OneByOne>(*batch).only_one();
         }
         // RDDL_OK if there are environments [begin, begin + count).
         rddl_error check(std::int64_t begin, std::int64_t count) const {
@@ -389,7 +413,7 @@ class Functions {
         if (batch == nullptr) return missing("the batch");
         const rddl_problem& problem = handle(batch).problem();
         if (actions == nullptr && problem.action_size > 0) return missing("the room for actions");
-        std::get<OneByOne>(handle(batch).batch).act(static_cast<std::byte*>(actions));
+        std::get<OneByOne>(*handle(batch).batch).act(static_cast<std::byte*>(actions));
         return RDDL_OK;
     }
 
@@ -436,13 +460,19 @@ class Functions {
         if (const rddl_error error = handle(batch).check(begin, count)) return error;
         for (std::int64_t k = 0; steps != nullptr && k < count; ++k)
             if (steps[k] < 0) return bad_argument("a count of steps is negative: ", steps[k]);
-        return handle(batch).use([&](auto& environments) {
-            const auto* const records = static_cast<const std::byte*>(states);
-            if (!environments.accepts_states(records, count))
-                return refuse_records(handle(batch).problem(), RDDL_STATE, records, begin, count);
-            environments.set_states(begin, count, records, steps);
-            return RDDL_OK;
-        });
+        const auto* const records = static_cast<const std::byte*>(states);
+        const bool are_accepted = handle(batch).use(
+            [&](const auto& environments) { return environments.accepts_states(records, count); });
+        if (!are_accepted)
+            return refuse_records(handle(batch).problem(), RDDL_STATE, records, begin, count);
+        try {
+            handle(batch).make_room_for(records, count);
+        } catch (...) {
+            return out_of_memory();
+        }
+        handle(batch).use(
+            [&](auto& environments) { environments.set_states(begin, count, records, steps); });
+        return RDDL_OK;
     }
 
     static rddl_error copy_environments(rddl_batch* to, std::int64_t begin, std::int64_t count,
@@ -469,6 +499,7 @@ class Functions {
                 handle(from).use([&](const auto& environments) {
                     environments.get_environment(source_of(sources, first), *copied);
                 });
+                handle(to).make_room_for(copied->state[0], 1);
                 handle(to).use([&](auto& environments) {
                     environments.set_environments(begin + first, k - first, *copied);
                 });
@@ -521,10 +552,12 @@ class Functions {
                 return bad_argument("snapshot ", k, " is not one of this problem and version");
         try {
             Environment environment(*maker.problem, memory);
-            return for_each(batch, begin, count, [&](auto& all, std::int64_t k, std::int64_t i) {
+            for (std::int64_t k = 0; k < count; ++k) {
                 read_snapshot(*maker.problem, memory, snapshot(k), environment);
-                all.set_environment(i, environment);
-            });
+                handle(batch).make_room_for(environment.state[0], 1);
+                handle(batch).use([&](auto& all) { all.set_environment(begin + k, environment); });
+            }
+            return RDDL_OK;
         } catch (...) {
             return out_of_memory();
         }

@@ -22,6 +22,7 @@ struct ScalarOf {
     using Bool = bool;
     using Int = std::int64_t;
     using Real = R;
+    using Count = std::int64_t;  // of steps or episodes
     using Word = std::uint64_t;  // 64 random bits, or a counter
 };
 using Scalar = ScalarOf<double>;

@@ -8,6 +8,7 @@
 #include <rddl/lanes/lane.hpp>
 #include <rddl/lanes/real.hpp>
 #include <rddl/lanes/simd.hpp>
+#include <rddl/lanes/simd_byte_ints.hpp>
 #include <rddl/lanes/simd_floats.hpp>
 #include <rddl/lanes/simd_moves.hpp>
 
@@ -81,7 +82,7 @@ constexpr void for_each_lane(Mask<n> mask, Body&& body) {
 
 // --------------------------------------------------------------------------------- numbers
 
-// n values of type double, float, int64_t, uint64_t or uint32_t.
+// n values of type double, float, int64_t, uint64_t or uint32_t; or of int8_t, with 64 lanes.
 template <class T, int n>
 struct Lanes {
     using Element = T;
@@ -134,6 +135,11 @@ struct Lanes {
 
     RDDL_INLINE T operator[](int lane) const { return part[lane / part_width][lane % part_width]; }
     RDDL_INLINE void set(int lane, T value) { part[lane / part_width][lane % part_width] = value; }
+
+    // Byte ints are made of other ints, which are that small.
+    RDDL_INLINE Lanes(const Lanes<std::int64_t, n>& wide) requires std::same_as<T, std::int8_t> {
+        part[0] = simd::narrowed(wide.part);
+    }
 
     friend RDDL_INLINE Lanes operator+(Lanes a, Lanes b) {
         return each([](Vector x, Vector y) RDDL_INLINE_LAMBDA { return x + y; }, a, b);
@@ -249,7 +255,17 @@ struct Pack {
     using Bool = Mask<n>;
     using Int = Lanes<std::int64_t, n>;
     using Real = Lanes<R, n>;
+    using Count = Lanes<std::int64_t, n>;  // of steps or episodes
     using Word = Lanes<std::uint64_t, n>;
 };
+
+// The same with ints of a byte, for problems whose ints are that small. Without
+// RDDL_SIMD_BYTE_INTS there are none.
+template <class R = double>
+struct ByteIntPack : Pack<64, R> {
+    using Int = Lanes<std::int8_t, 64>;
+};
+template <class L>
+inline constexpr bool has_byte_ints = std::is_same_v<typename L::Int, Lanes<std::int8_t, 64>>;
 
 }  // namespace rddl::inline RDDL_SIMD_LEVEL

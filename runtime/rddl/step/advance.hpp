@@ -154,7 +154,7 @@ RDDL_ALWAYS_INLINE typename L::Real make_step(const E& engine, const Blocks<L>& 
                                               Ends<L>& ends, const Actions& actions,
                                               StepBuffers made, const StepBuffers& memory) {
     using Bool = typename L::Bool;
-    using Int = typename L::Int;
+    using Int = typename L::Count;
     Episodes<L>& episodes = blocks.episodes[b];
     const std::byte* const states = state_of(engine, blocks, b);
     made.next = next_state_of(engine, blocks, b, made.next);

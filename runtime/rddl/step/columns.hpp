@@ -215,9 +215,22 @@ RDDL_INLINE void for_each_column(const KnownColumns<count>& columns, Visit&& vis
 
 namespace detail {
 
-// The type of one lane's value in a record of the C interface: all reals are double there.
+// The type of one lane's value in a record of the C interface: all reals are double there, and all
+// ints have 64 bits.
 template <class T>
-using InRecord = std::conditional_t<std::is_same_v<T, float>, double, T>;
+struct TypeInRecord {
+    using type = T;
+};
+template <>
+struct TypeInRecord<float> {
+    using type = double;
+};
+template <>
+struct TypeInRecord<std::int8_t> {
+    using type = std::int64_t;
+};
+template <class T>
+using InRecord = typename TypeInRecord<T>::type;
 
 // Callers write true as any byte but 0.
 constexpr std::byte bool_of(std::byte byte) {
@@ -265,6 +278,8 @@ template <class T>
 RDDL_INLINE T read_numbers(const std::byte* rows, std::int64_t row_size, int present) {
     if constexpr (std::is_same_v<typename T::Element, float>)
         return to_float(read_numbers<Lanes<double, T::width>>(rows, row_size, present));
+    else if constexpr (std::is_same_v<typename T::Element, std::int8_t>)
+        return read_numbers<Lanes<std::int64_t, T::width>>(rows, row_size, present);
     else if (present == T::width)
         return T::load_apart(rows, row_size);
     else
@@ -291,11 +306,29 @@ RDDL_INLINE void read_pairs(const std::byte* rows, T* values) {
     }
     for (int i = 0; i < 2; ++i) values[i] = from_records<T>(columns[i]);
 }
+// The same of rows of 2, 4 or 8 ints that are byte ints in the block, if they are nothing else.
+template <class T>
+RDDL_INLINE bool read_rows_of_byte_ints(const std::byte* rows, std::int64_t row_size,
+                                        std::int64_t count, T* values) {
+    if (row_size != count * static_cast<std::int64_t>(sizeof(std::int64_t))) return false;
+    const auto read = [&]<int n>(std::integral_constant<int, n>) RDDL_INLINE_LAMBDA {
+        simd::ByteInts columns[n];
+        simd::narrow_rows(rows, columns);
+        for (int i = 0; i < n; ++i) values[i].part[0] = columns[i];
+        return true;
+    };
+    if (count == 2) return read(std::integral_constant<int, 2>());
+    if (count == 4) return read(std::integral_constant<int, 4>());
+    if (count == 8) return read(std::integral_constant<int, 8>());
+    return false;
+}
 // Reads `count` columns, at most as many as a register has lanes, of whole blocks.
 template <class T>
 RDDL_INLINE void read_columns(const std::byte* rows, std::int64_t row_size, std::int64_t count,
                               T* values) {
     using Value = InRecord<typename T::Element>;
+    if constexpr (std::is_same_v<typename T::Element, std::int8_t>)
+        if (read_rows_of_byte_ints(rows, row_size, count, values)) return;
     if (count == 2 && row_size == 2 * sizeof(Value)) return read_pairs(rows, values);
     Lanes<Value, T::width> columns[simd::lanes];
     for (int p = 0; p < columns[0].part_count; ++p) {
@@ -318,6 +351,8 @@ RDDL_INLINE void write_numbers(const T& values, std::byte* rows, std::int64_t ro
                                int present) {
     if constexpr (std::is_same_v<typename T::Element, float>) {
         write_numbers(to_double(values), rows, row_size, present);
+    } else if constexpr (std::is_same_v<typename T::Element, std::int8_t>) {
+        write_numbers(widened(values), rows, row_size, present);
     } else if (present == T::width && row_size == 8) {
         values.store(rows);
     } else {
@@ -353,17 +388,18 @@ inline bool are_short(const Columns&) {
     return false;
 }
 // The words of short records of whole blocks become their values.
-template <int n, class R, class List>
-RDDL_INLINE void read_short_records(Pack<n, R>, const ColumnTable<List>& columns,
-                                    const std::byte* rows, std::byte* block) {
+template <class L, class List>
+RDDL_INLINE void read_short_records(L, const ColumnTable<List>& columns, const std::byte* rows,
+                                    std::byte* block) {
+    constexpr int n = L::width;
     Lanes<std::uint64_t, n> words[simd::lanes];
     read_columns(rows, columns.row_size, columns.row_size / 8, words);
     for_each_column(columns, [&](const Column& column) RDDL_INLINE_LAMBDA {
-        with_type<Pack<n, R>>(column.scalar, [&]<class T>() RDDL_INLINE_LAMBDA {
+        with_type<L>(column.scalar, [&]<class T>() RDDL_INLINE_LAMBDA {
             T* const values = values_in<T>(block, column);
             const std::int64_t first = column.row / 8;
             for (std::int64_t k = 0; k < column.count; ++k) {
-                if constexpr (std::is_same_v<T, Mask<n>>) {
+                if constexpr (std::is_same_v<T, typename L::Bool>) {
                     const std::int64_t byte = column.row + k;
                     values[k] =
                         ints_of(words[byte / 8] &
@@ -371,6 +407,8 @@ RDDL_INLINE void read_short_records(Pack<n, R>, const ColumnTable<List>& columns
                         std::int64_t{0};
                 } else if constexpr (std::is_same_v<typename T::Element, float>) {
                     values[k] = to_float(real_of_bits(words[first + k]));
+                } else if constexpr (std::is_same_v<typename T::Element, std::int8_t>) {
+                    values[k] = ints_of(words[first + k]);
                 } else {
                     values[k] = same_bits<typename T::Element>(words[first + k]);
                 }
@@ -444,12 +482,14 @@ void read_records(Scalar, const ColumnTable<List>& columns, const std::byte* row
         }
     });
 }
-template <int n, class R, class List>
-RDDL_INLINE void read_records(Pack<n, R>, const ColumnTable<List>& columns, const std::byte* rows,
-                              int present, std::byte* block) {
+template <class L, class List>
+requires(L::width > 1) RDDL_INLINE
+    void read_records(L, const ColumnTable<List>& columns, const std::byte* rows, int present,
+                      std::byte* block) {
+    constexpr int n = L::width;
 #ifdef RDDL_SIMD_AVX512
     if (present == n && detail::are_short(columns))
-        return detail::read_short_records(Pack<n, R>{}, columns, rows, block);
+        return detail::read_short_records(L{}, columns, rows, block);
 #endif
     const auto read = [&]<class T>(const Column& column, T* values) RDDL_INLINE_LAMBDA {
         const std::byte* const first = rows + column.row;
@@ -465,9 +505,9 @@ RDDL_INLINE void read_records(Pack<n, R>, const ColumnTable<List>& columns, cons
             values[k] = detail::read_numbers<T>(first + 8 * k, columns.row_size, present);
     };
     for_each_column(columns, [&](const Column& column) RDDL_INLINE_LAMBDA {
-        with_type<Pack<n, R>>(column.scalar, [&]<class T>() RDDL_INLINE_LAMBDA {
+        with_type<L>(column.scalar, [&]<class T>() RDDL_INLINE_LAMBDA {
             T* const values = detail::values_in<T>(block, column);
-            if constexpr (std::is_same_v<T, Mask<n>>)
+            if constexpr (std::is_same_v<T, typename L::Bool>)
                 read_bools(rows + column.row, columns.row_size, present, column.count, values);
             else
                 read(column, values);
@@ -479,17 +519,17 @@ inline void write_records(Scalar, const Columns& columns, const std::byte* block
                           int) {
     if (columns.row_size > 0) std::memcpy(rows, block, static_cast<std::size_t>(columns.row_size));
 }
-template <int n, class R>
-void write_records(Pack<n, R>, const Columns& columns, const std::byte* block, std::byte* rows,
-                   int present) {
+template <class L>
+requires(L::width > 1) void write_records(L, const Columns& columns, const std::byte* block,
+                                          std::byte* rows, int present) {
     const auto write = [&]<class T>(const Column& column, const T* values) {
         for (std::int64_t k = 0; k < column.count; ++k)
             detail::write_numbers(values[k], rows + column.row + 8 * k, columns.row_size, present);
     };
     for (const Column& column : columns.list)
-        with_type<Pack<n, R>>(column.scalar, [&]<class T>() {
+        with_type<L>(column.scalar, [&]<class T>() {
             const T* const values = detail::values_in<T>(block, column);
-            if constexpr (std::is_same_v<T, Mask<n>>)
+            if constexpr (std::is_same_v<T, typename L::Bool>)
                 write_bools(values, column.count, rows + column.row, columns.row_size, present);
             else
                 write(column, values);
@@ -605,8 +645,9 @@ void read_values(L, const Columns& columns, const Number* rows, int present, std
                     using Value = decltype(get_lane(values[k], lane));
                     if constexpr (std::is_same_v<Value, bool>)
                         set_lane(values[k], lane, *number > Number{0.5});
-                    else if constexpr (std::is_same_v<Value, std::int64_t>)
-                        set_lane(values[k], lane, round(static_cast<double>(*number)));
+                    else if constexpr (std::is_integral_v<Value>)
+                        set_lane(values[k], lane,
+                                 static_cast<Value>(round(static_cast<double>(*number))));
                     else
                         set_lane(values[k], lane, static_cast<Value>(*number));
                 }
@@ -642,16 +683,16 @@ void merge(ScalarOf<R>, const ColumnTable<List>& columns, bool mask, const std::
     if (mask && columns.block_size > 0)
         std::memcpy(block, from, static_cast<std::size_t>(columns.block_size));
 }
-template <int n, class R, class List>
-void merge(Pack<n, R>, const ColumnTable<List>& columns, Mask<n> mask, const std::byte* from,
-           std::byte* block) {
+template <class L, class List>
+requires(L::width > 1) void merge(L, const ColumnTable<List>& columns, typename L::Bool mask,
+                                  const std::byte* from, std::byte* block) {
     if (all(mask) && columns.block_size > 0) {
         std::memcpy(block, from, static_cast<std::size_t>(columns.block_size));
         return;
     }
     if (!any(mask)) return;
     for_each_column(columns, [&](const Column& column) RDDL_INLINE_LAMBDA {
-        with_type<Pack<n, R>>(column.scalar, [&]<class T>() RDDL_INLINE_LAMBDA {
+        with_type<L>(column.scalar, [&]<class T>() RDDL_INLINE_LAMBDA {
             const T* const theirs = detail::values_in<T>(from, column);
             T* const ours = detail::values_in<T>(block, column);
             for (std::int64_t k = 0; k < column.count; ++k)

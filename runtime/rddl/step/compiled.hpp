@@ -171,4 +171,13 @@ struct Compiled {
 template <class Simulator, const rddl_problem& problem, int n, class R = double>
 using Packed = Compiled<Simulator, problem, Pack<n, R>>;
 
+// The same where the ints of all steps from states within the fluents' bounds fit into a byte: 64
+// environments where registers hold as many byte ints, else n.
+template <class Simulator, const rddl_problem& problem, int n, class R = double>
+#ifdef RDDL_SIMD_BYTE_INTS
+using PackedByteInts = Compiled<Simulator, problem, ByteIntPack<R>>;
+#else
+using PackedByteInts = Packed<Simulator, problem, n, R>;
+#endif
+
 }  // namespace rddl

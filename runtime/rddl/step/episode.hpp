@@ -52,7 +52,7 @@ struct Ends {
 template <class L>
 struct alignas(64) Episodes {
     using Bool = typename L::Bool;
-    using Int = typename L::Int;
+    using Int = typename L::Count;
     using Word = typename L::Word;
 
     Bool present{true};            // false: no environment in this lane, for ever
@@ -222,10 +222,11 @@ typename L::Bool reset_some(const E& engine, const Columns&, typename L::Bool la
 inline constexpr int keys_at_once = 8;
 
 // Sets the keys of the episodes of the lanes from keys_at_once * `part` on, which are all present.
-template <int n, class R>
-void set_some_keys(const Blocks<Pack<n, R>>& blocks, std::int64_t b, std::size_t part) {
+template <class L>
+void set_some_keys(const Blocks<L>& blocks, std::int64_t b, std::size_t part) {
+    constexpr std::int64_t n = L::width;
     using Word = Lanes<std::uint64_t, keys_at_once>;
-    Episodes<Pack<n, R>>& episodes = blocks.episodes[b];
+    Episodes<L>& episodes = blocks.episodes[b];
     const auto* const streams = reinterpret_cast<const std::byte*>(
         blocks.streams + b * n + static_cast<std::int64_t>(part) * keys_at_once);
     const auto seed = Word::load_apart(streams + offsetof(Stream, seed), sizeof(Stream));
@@ -269,7 +270,7 @@ void set_keys(const Blocks<L>& blocks, std::int64_t b, typename L::Bool lanes) {
 template <StateEngine E, class L = typename E::Lane>
 void start_next(const E& engine, const Blocks<L>& blocks, std::int64_t b, typename L::Bool lanes,
                 std::byte* room) {
-    using Int = typename L::Int;
+    using Int = typename L::Count;
     Episodes<L>& episodes = blocks.episodes[b];
     episodes.number = select(lanes, wrap_add(episodes.number, Int{1}), episodes.number);
     episodes.steps = select(lanes, Int{0}, episodes.steps);

@@ -210,6 +210,15 @@ struct Context<Pack<n, R>> {
     }
 };
 
+template <class R>
+struct Context<ByteIntPack<R>> : Context<Pack<64, R>> {
+    using typename Context<Pack<64, R>>::Word;
+    static Context of(const Word& key_low, const Word& key_high, const Word& step,
+                      Mask<64> active) {
+        return {Context<Pack<64, R>>::of(key_low, key_high, step, active)};
+    }
+};
+
 // A fault that has no value to show; evaluates to zero.
 template <class T, class L>
 constexpr T fault(Context<L>& context, Place place) {

@@ -58,6 +58,9 @@ struct Widened<Lanes<T, n>, n> {
     using type = Lanes<T, n>;
 };
 
+template <class T>
+inline constexpr bool are_byte_ints = std::is_same_v<T, Lanes<std::int8_t, 64>>;
+
 template <class A, class B>
 inline constexpr int common_width = pack_width<A> > pack_width<B> ? pack_width<A> : pack_width<B>;
 
@@ -69,6 +72,14 @@ concept SomePack = ((detail::pack_width<Operands> > 0) || ...);
 
 template <class T, int n>
 using LanesOf = typename detail::Widened<T, n>::type;
+
+// The pack type of values that have the type of A or of B. What meets byte ints is as small.
+template <class A, class B, int n = detail::common_width<A, B>>
+using CommonLanes = std::conditional_t<detail::are_byte_ints<B>, B, LanesOf<A, n>>;
+template <class A, class B>
+using CommonInts =
+    std::conditional_t<detail::are_byte_ints<A> || detail::are_byte_ints<B>, Lanes<std::int8_t, 64>,
+                       Lanes<std::int64_t, detail::common_width<A, B>>>;
 
 // Calls a function of scalars for each lane.
 template <class A, class Function>
@@ -110,6 +121,14 @@ template <int part_count>
 struct MaskParts {
     simd::MaskBits part[part_count];
 };
+template <int n>
+RDDL_INLINE Lanes<std::int8_t, n> choose(Mask<n> condition, const Lanes<std::int8_t, n>& a,
+                                         const Lanes<std::int8_t, n>& b) {
+    return Lanes<std::int8_t, n>::each(
+        [condition](auto x, auto y)
+            RDDL_INLINE_LAMBDA { return simd::blend(condition.bits, x, y); },
+        a, b);
+}
 template <class T, int n, std::size_t... p>
 RDDL_INLINE auto parts_of(Mask<n> mask, std::index_sequence<p...>) {
     constexpr int width = Lanes<T, n>::part_width;
@@ -127,10 +146,9 @@ RDDL_INLINE Lanes<T, n> choose(Mask<n> condition, const Lanes<T, n>& a, const La
 }  // namespace detail
 
 template <int n, class A, class B>
-requires std::is_same_v<LanesOf<A, n>, LanesOf<B, n>> RDDL_INLINE auto select(Mask<n> condition,
-                                                                              const A& a,
-                                                                              const B& b) {
-    using Result = LanesOf<A, n>;
+requires std::is_same_v<CommonLanes<A, B, n>, CommonLanes<B, A, n>> RDDL_INLINE auto select(
+    Mask<n> condition, const A& a, const B& b) {
+    using Result = CommonLanes<A, B, n>;
     return detail::choose(condition, Result(a), Result(b));
 }
 template <class A, class B>
@@ -233,6 +251,30 @@ template <int n>
 RDDL_INLINE Lanes<double, n> to_real(const Lanes<std::int64_t, n>& a) {
     return Lanes<double, n>::each([](auto x) RDDL_INLINE_LAMBDA { return simd::to_reals(x); }, a);
 }
+// The ints of byte ints, as 64 bits, which pass through memory: loads spread bytes.
+template <int n>
+RDDL_INLINE Lanes<std::int64_t, n> widened(const Lanes<std::int8_t, n>& a) {
+    std::int8_t bytes[n];
+    a.store(bytes);
+    Lanes<std::int64_t, n> ints;
+    for (int p = 0; p < ints.part_count; ++p)
+        ints.part[p] = simd::widened(bytes + p * ints.part_width);
+    return ints;
+}
+template <int n>
+RDDL_INLINE Lanes<double, n> to_real(const Lanes<std::int8_t, n>& a) {
+    return to_real(widened(a));
+}
+template <int n>
+RDDL_INLINE Lanes<float, n> to_float(const Lanes<std::int8_t, n>& a) {
+    return to_float(widened(a));
+}
+// As ints of this type.
+template <class Int, int n>
+RDDL_INLINE auto to_int(Mask<n> a) {
+    using Ints = LanesOf<Int, n>;
+    return select(a, Ints{1}, Ints{0});
+}
 template <int n>
 RDDL_INLINE Lanes<std::int64_t, n> truncate_to_int(const Lanes<double, n>& a) {
     return Lanes<std::int64_t, n>::each([](auto x) RDDL_INLINE_LAMBDA { return simd::truncate(x); },
@@ -317,15 +359,32 @@ RDDL_INLINE Lanes<std::uint64_t, n> join_lower_halves(const Lanes<std::uint64_t,
 
 // --------------------------------------------------------------------------- int arithmetic
 
+namespace detail {
+
+template <class Int, class Operation, class A, class B>
+RDDL_INLINE Int wrapped(Operation operation, const A& a, const B& b) {
+    if constexpr (are_byte_ints<Int>)
+        return Int::each(
+            [operation](auto x, auto y) RDDL_INLINE_LAMBDA {
+                return simd::reinterpret<simd::ByteInts>(operation(
+                    simd::reinterpret<simd::ByteWords>(x), simd::reinterpret<simd::ByteWords>(y)));
+            },
+            Int(a), Int(b));
+    else
+        return ints_of(operation(words_of(Int(a)), words_of(Int(b))));
+}
+
+}  // namespace detail
+
 template <class A, class B>
 requires SomePack<A, B> RDDL_INLINE auto wrap_add(const A& a, const B& b) {
-    using Int = Lanes<std::int64_t, detail::common_width<A, B>>;
-    return ints_of(words_of(Int(a)) + words_of(Int(b)));
+    return detail::wrapped<CommonInts<A, B>>(
+        [](auto x, auto y) RDDL_INLINE_LAMBDA { return x + y; }, a, b);
 }
 template <class A, class B>
 requires SomePack<A, B> RDDL_INLINE auto wrap_sub(const A& a, const B& b) {
-    using Int = Lanes<std::int64_t, detail::common_width<A, B>>;
-    return ints_of(words_of(Int(a)) - words_of(Int(b)));
+    return detail::wrapped<CommonInts<A, B>>(
+        [](auto x, auto y) RDDL_INLINE_LAMBDA { return x - y; }, a, b);
 }
 template <class A, class B>
 requires SomePack<A, B> RDDL_INLINE auto wrap_mul(const A& a, const B& b) {
@@ -350,8 +409,8 @@ template <int n>
 RDDL_INLINE Lanes<std::int64_t, n> wrap_mul(const Lanes<std::int64_t, n>& a, bool is_one) {
     return wrap_mul(a, Mask<n>(is_one));
 }
-template <int n>
-RDDL_INLINE Lanes<std::int64_t, n> wrap_neg(const Lanes<std::int64_t, n>& a) {
+template <class T, int n>
+RDDL_INLINE Lanes<T, n> wrap_neg(const Lanes<T, n>& a) {
     return wrap_sub(std::int64_t{0}, a);
 }
 
@@ -414,7 +473,7 @@ RDDL_INLINE Lanes<R, n> without_minus_zero(const Lanes<R, n>& a) {
 }
 template <class A, class B>
 requires SomePack<A, B> RDDL_INLINE auto minimum(const A& a, const B& b) {
-    using Result = LanesOf<A, detail::common_width<A, B>>;
+    using Result = CommonLanes<A, B>;
     const Result x(a), y(b);
     if constexpr (std::is_floating_point_v<A>) {
         const auto first_unless_beyond = [](auto p, auto q) RDDL_INLINE_LAMBDA {
@@ -432,7 +491,7 @@ requires SomePack<A, B> RDDL_INLINE auto minimum(const A& a, const B& b) {
 }
 template <class A, class B>
 requires SomePack<A, B> RDDL_INLINE auto maximum(const A& a, const B& b) {
-    using Result = LanesOf<A, detail::common_width<A, B>>;
+    using Result = CommonLanes<A, B>;
     const Result x(a), y(b);
     if constexpr (std::is_floating_point_v<A>) {
         const auto first_unless_beyond = [](auto p, auto q) RDDL_INLINE_LAMBDA {
