@@ -21,6 +21,8 @@ inline constexpr double elementary_cost = 110;
 inline constexpr double draw_cost = 20;
 inline constexpr double quantile_cost = 190;
 inline constexpr double step_cost = 100;
+// Operations in whose time a jump takes that the processor has foreseen wrongly.
+inline constexpr double mispredicted_jump_cost = 48;
 // Iterations that a loop over several objects makes at once: the doubles of an AVX2 register.
 inline constexpr double objects_at_once = 4;
 // The same where values are bools: some instructions take 64 of them from tables to words and back.

@@ -205,6 +205,7 @@ enum class Evaluated : std::uint8_t {
     PackBoth,  // the branch that is taken; in packs both
     Both,
     MostlyFirst,  // the branch that is taken, which is hardly ever the second one
+    Jump,         // the branch that is taken; in packs those that a lane takes, cheap ones too
 };
 // Lazy: the branch not taken is not evaluated, so it cannot fault.
 struct Select {

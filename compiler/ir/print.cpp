@@ -420,7 +420,7 @@ class Printer {
     }
 
     std::string text(const Select& form, Scalar, Precedence) const {
-        constexpr std::string_view how[] = {"", " both in packs", " both", " mostly first"};
+        constexpr std::string_view how[] = {"", " both in packs", " both", " mostly first", " by a jump"};
         return fmt::format("select{}({})", how[static_cast<std::size_t>(form.evaluated)],
                            list({form.condition, form.then_value, form.else_value}));
     }

@@ -302,6 +302,7 @@ class Verifier {
         switch (form.evaluated) {
             case Evaluated::Branch:
             case Evaluated::MostlyFirst:
+            case Evaluated::Jump:
                 return true;
             case Evaluated::PackBoth:
                 return is_droppable(first) && is_droppable(second);

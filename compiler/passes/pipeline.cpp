@@ -20,6 +20,7 @@
 #include "passes/aggregations/search_intervals.hpp"
 #include "passes/aggregations/set_bits.hpp"
 #include "passes/aggregations/skip_added_zeros.hpp"
+#include "passes/aggregations/skip_unchosen_sums.hpp"
 #include "passes/aggregations/skip_zero_terms.hpp"
 #include "passes/aggregations/tabulate_counts.hpp"
 #include "passes/aggregations/tabulate_draws.hpp"
@@ -331,6 +332,13 @@ constexpr Pass in_order[] = {
      "an exists or forall leaves out the conditions that it does not change",
      {"count_bits", "compare_roots"},
      "the passes above need whole conditions, and make their final form"},
+    {"skip_unchosen_sums",
+     Phase::Aggregations,
+     skip_unchosen_sums,
+     "expensive sums of the reward are skipped where the action chooses nothing",
+     {"skip_zero_terms", "count_bits"},
+     "the sums that are still expensive are known",
+     adds_tests},
     {"pair_angles",
      Phase::Sharing,
      pair_angles,

@@ -15,6 +15,7 @@ enum Trait : unsigned {
     leaves_out_zeros = 2,  // terms that are multiplied by zero, if they are finite
     may_find_more = 4,     // its results may hold more work of the same kind
     always_runs = 8,       // also where it is to be left out, since emit/ needs its results
+    adds_tests = 16,       // of work that they skip; the cost model counts it as if it were done
 };
 
 struct Pass {

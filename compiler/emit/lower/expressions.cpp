@@ -7,6 +7,7 @@
 #include "emit/lower/tables.hpp"
 #include "ir/action_bools.hpp"
 #include "ir/call.hpp"
+#include "ir/common_rows.hpp"
 #include "ir/few_bits.hpp"
 #include "ir/row_of_bools.hpp"
 #include "support/match.hpp"
@@ -390,6 +391,28 @@ std::optional<Expression> Expressions::count_of_true(const ir::Node& binder) {
     if (!sum || !std::holds_alternative<ir::Convert>(unit_.program[sum->body].form))
         return std::nullopt;
     return tree::call("rddl::count_true", {bools_of(*sum)});
+}
+
+// "state.open[t] && rddl::is_any_in_all(action.drive[t], action.drive[u])"
+std::optional<Expression> Expressions::any_in_common_rows(const ir::Node& binder) {
+    const auto* exists = std::get_if<ir::Reduce>(&binder.form);
+    const auto common = exists ? ir::common_rows(unit_.program, *exists) : std::nullopt;
+    const auto is_bytes = [&](const ir::Load* row) {
+        const bool may_be_any_byte =
+            unit_.tests_action_bools && ir::is_action_bools(unit_.program[row->buffer]);
+        return !may_be_any_byte &&
+               std::ranges::all_of(std::span(row->indices).first(row->indices.size() - 1),
+                                   [&](ir::NodeId index) { return unit_.is_uniform(index); });
+    };
+    if (!common || several_ || !std::ranges::all_of(common->rows, is_bytes)) return std::nullopt;
+    tree::Expressions rows;
+    for (const ir::Load* row : common->rows)
+        rows.push_back(
+            elements(record(row->buffer), std::span(row->indices).first(row->indices.size() - 1)));
+    Expression all = tree::call("rddl::is_any_in_all", std::move(rows));
+    for (auto other = common->others.rbegin(); other != common->others.rend(); ++other)
+        all = operation(plain_operator(Operator::And), list(lower(*other), std::move(all)));
+    return all;
 }
 
 const ir::Select& Expressions::term_over_true(const ir::Node& binder) const {

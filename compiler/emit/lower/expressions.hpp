@@ -61,6 +61,7 @@ class Expressions {
     template <class Body>
     tree::Expression lower_binder(const ir::Node& binder, Body&& body) {
         if (auto count = count_of_true(binder)) return *std::move(count);
+        if (auto any = any_in_common_rows(binder)) return *std::move(any);
         if (auto sum = sum_where_true(binder)) return *std::move(sum);
         if (auto draw = draw_of_row(binder)) return *std::move(draw);
         const auto shares = shares_of(binder);
@@ -164,6 +165,7 @@ class Expressions {
     std::optional<tree::Expression> sum_where_true(const ir::Node& binder);
     std::optional<tree::Expression> draw_of_row(const ir::Node& binder);
     std::optional<tree::Expression> count_of_true(const ir::Node& binder);
+    std::optional<tree::Expression> any_in_common_rows(const ir::Node& binder);
     // The term of an aggregation, or the weight of a draw.
     ir::NodeId bound_value(const ir::Node& binder) const;
     // The row or table of which such a sum visits the true elements.

@@ -213,7 +213,9 @@ class Choices {
     }
 
     ir::Evaluated evaluated(const ir::Select& select) const {
-        if (select.evaluated == ir::Evaluated::MostlyFirst) return select.evaluated;
+        if (select.evaluated == ir::Evaluated::MostlyFirst ||
+            select.evaluated == ir::Evaluated::Jump)
+            return select.evaluated;
         if (!is_lazy(select)) return ir::Evaluated::Both;
         return is_harmless(select) ? ir::Evaluated::PackBoth : ir::Evaluated::Branch;
     }

@@ -1,5 +1,6 @@
 #include "passes/lanes/separate_aggregations.hpp"
 
+#include "ir/cost_model.hpp"
 #include "ir/fill_table.hpp"
 #include "ir/nest.hpp"
 #include "ir/reduction_nest.hpp"
@@ -20,8 +21,6 @@ namespace {
 
 // Operations (Properties::cost) that are worth writing a value to a table and reading it again.
 constexpr double worth_separating = 10;
-// Operations of an aggregation in a branch: it takes no longer than a mispredicted jump.
-constexpr double most_in_branch = 48;
 // An action that chooses one of so many objects at most makes a branch rare.
 constexpr std::int64_t least_per_rare = 2;
 
@@ -144,7 +143,7 @@ class Separation {
                         std::vector<ir::NodeId>& found) const {
         std::vector<ir::NodeId> inside;
         const auto is_cheap = [&](ir::NodeId each) {
-            return may_be_computed && builder_.properties(each).cost <= most_in_branch;
+            return may_be_computed && builder_.properties(each).cost <= ir::mispredicted_jump_cost;
         };
         if (!find_aggregations(id, variables, inside) || !std::ranges::all_of(inside, is_cheap))
             return false;

@@ -1,6 +1,7 @@
 #include "passes/lanes/test_cheap_first.hpp"
 
 #include "ir/analysis.hpp"
+#include "ir/cost_model.hpp"
 #include "ir/rewrite.hpp"
 #include "passes/analyses/few_true.hpp"
 
@@ -12,10 +13,6 @@
 
 namespace rddlc::passes {
 namespace {
-
-// In operations (Properties::cost): to evaluate a cheaper part takes no longer than a jump that is
-// mispredicted.
-constexpr double worth_a_branch = 48;
 
 // The operator if it is And or Or.
 std::optional<Operator> connective_of(const ir::Node& node) {
@@ -77,7 +74,7 @@ std::optional<ir::NodeId> tested_first(ir::Builder& builder, ir::NodeId id, Oper
     if (dear == parts.begin() || dear == parts.end()) return std::nullopt;
     const ir::NodeId test = ir::joined(builder, op, std::span(parts.begin(), dear));
     const ir::NodeId rest = ir::joined(builder, op, std::span(dear, parts.end()));
-    if (builder.properties(rest).cost < worth_a_branch ||
+    if (builder.properties(rest).cost < ir::mispredicted_jump_cost ||
         !has_loop(builder, rest, builder.properties(test).free_variables))
         return std::nullopt;
     const ir::NodeId decided = builder.constant(op == Operator::Or);

@@ -204,6 +204,26 @@ template <int count>
     add(std::uint8_t{});
     return rest != 0;
 }
+// Whether one byte is not 0 in all of these rows of bytes, which are 0 or 1.
+template <int count, class... Rows>
+[[gnu::always_inline]] inline bool is_any_byte_in_all(const Rows*... rows) {
+    int first = 0;
+    std::uint64_t any = 0;
+    const auto add = [&]<class Part>(Part) __attribute__((always_inline)) {
+        const auto of_row = [&](const void* row) __attribute__((always_inline)) {
+            Part part;
+            __builtin_memcpy(&part, static_cast<const char*>(row) + first, sizeof part);
+            return part;
+        };
+        any |= static_cast<std::uint64_t>((of_row(rows) & ...));
+        first += static_cast<int>(sizeof(Part));
+    };
+    while (first + 8 <= count) add(std::uint64_t{});
+    if constexpr ((count & 4) != 0) add(std::uint32_t{});
+    if constexpr ((count & 2) != 0) add(std::uint16_t{});
+    if constexpr ((count & 1) != 0) add(std::uint8_t{});
+    return any != 0;
+}
 // Zeros, in the parts that is_any_stored_byte loads.
 template <int count>
 [[gnu::always_inline]] inline void clear_bytes(void* bytes) {

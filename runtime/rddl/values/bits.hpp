@@ -13,6 +13,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <tuple>
+#include <type_traits>
 #include <utility>
 
 namespace rddl {
@@ -80,6 +81,20 @@ template <class Table>
 RDDL_INLINE bool is_any_true(const Table& table) {
     return simd::is_any_stored_byte<static_cast<int>(detail::element_count<Table>)>(
         detail::first_element(table));
+}
+// Whether one element is true in all of these rows of bools, which have equally many. One
+// environment joins their bytes.
+template <class First, class... Others>
+RDDL_INLINE auto is_any_in_all(const First& first, const Others&... others) {
+    constexpr Index count = detail::element_count<First>;
+    if constexpr (std::is_same_v<First, std::array<bool, static_cast<std::size_t>(count)>>) {
+        return simd::is_any_byte_in_all<static_cast<int>(count)>(&first, &others...);
+    } else {
+        auto any = first[0] && (others[0] && ...);
+        for (std::size_t i = 1; i < first.size(); ++i)
+            any = any || (first[i] && (others[i] && ...));
+        return any;
+    }
 }
 // Whether all bools of these tables of the action are false, in packs for all environments.
 template <class... Choices>
