@@ -13,17 +13,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Runs before any work is done, so that errors come at once.
-void check_outputs(const CompileOptions& options, UsedFiles used, Diagnostics& diagnostics) {
-    for (const auto& output : {options.output, options.declaration_file, options.dependency_file}) {
-        if (!output) continue;
-        try {
-            require_writable(*output, used);
-        } catch (const UnwritableFile& failure) {
-            diagnostics.report(diagnostic_of(failure));
-        }
-        used.add(*output);
+// False, and a diagnostic, if it is clear already that it cannot be written.
+bool check_place(const fs::path& output, const UsedFiles& used, Diagnostics& diagnostics) {
+    try {
+        require_writable(output, used);
+    } catch (const UnwritableFile& failure) {
+        diagnostics.report(diagnostic_of(failure));
+        return false;
     }
+    return true;
 }
 
 void check_kind(const fs::path& output, Diagnostics& diagnostics) {
@@ -33,6 +31,17 @@ void check_kind(const fs::path& output, Diagnostics& diagnostics) {
         .span = {},
         .message = fmt::format("the name '{}' does not show the kind of output", output.string())}
                            .with_hint("end it in .cpp, .hpp or .so"));
+}
+
+// Runs before any work is done, so that errors come at once. The name of a folder shows no kind, and
+// one error is enough.
+void check_outputs(const CompileOptions& options, UsedFiles used, Diagnostics& diagnostics) {
+    for (const auto& output : {options.output, options.declaration_file, options.dependency_file}) {
+        if (!output) continue;
+        if (check_place(*output, used, diagnostics) && output == options.output)
+            check_kind(*output, diagnostics);
+        used.add(*output);
+    }
 }
 
 }  // namespace
@@ -68,7 +77,6 @@ std::vector<FileId> read_inputs(const CompileOptions& options, Sources& sources,
         }
     }
     check_extern_headers(options, diagnostics);
-    if (options.output) check_kind(*options.output, diagnostics);
     for (const fs::path& header : with_included_files(options.extern_headers)) used.add(header);
     check_outputs(options, used, diagnostics);
     return files;

@@ -7,6 +7,8 @@
 #include "ir/visits.hpp"
 #include "support/match.hpp"
 
+#include <rddl/values/few_objects.hpp>
+
 #include <algorithm>
 #include <optional>
 #include <span>
@@ -29,8 +31,6 @@ constexpr std::size_t operator_and_brackets = 4;  // of an operand in a chain
 constexpr std::size_t assignment_width = 3;       // " = "
 // An expression with more calls with lambdas inside is taken to pieces first.
 constexpr std::size_t most_lambda_calls = 64;
-// rddl::for_few_objects takes so many.
-constexpr std::int64_t most_unrolled = 16;
 
 // The table that the only statement of a nest fills.
 ir::BufferId only_target(const ir::Nest& nest) {
@@ -251,8 +251,9 @@ void FunctionBody::over_several_objects(const ir::Loop& loop, bool is_from_start
         {tree::Declared{"auto", objects}}};
     tree::append(parameters, numbers);
     tree::Expression lambda{tree::Lambda{std::move(parameters), std::move(body)}};
-    const bool is_unrolled = expressions_.looks_at_few_bits() &&
-                             ir::combinations(program(), nest.variables) <= most_unrolled;
+    const bool is_unrolled =
+        expressions_.looks_at_few_bits() &&
+        ir::combinations(program(), nest.variables) <= rddl::most_few_objects;
     expressions_.leave_nest();
     expressions_.return_to(before);
     if (loop.affected) {
