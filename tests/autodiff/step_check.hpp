@@ -223,7 +223,6 @@ class StepChecker {
 
     static constexpr std::size_t most_inputs = 40;  // of a step
 
-    const ir::Program& program_;
     ir::Interpreter interpreter_;
     StraightLine straight_;
     Evaluation evaluation_;
