@@ -2,6 +2,7 @@
 
 #include "driver/codes.hpp"
 #include "driver/extern_headers.hpp"
+#include "support/suggestion.hpp"
 
 #include <fmt/format.h>
 
@@ -33,8 +34,8 @@ void check_kind(const fs::path& output, Diagnostics& diagnostics) {
                            .with_hint("end it in .cpp, .hpp or .so"));
 }
 
-// Runs before any work is done, so that errors come at once. The name of a folder shows no kind, and
-// one error is enough.
+// Runs before any work is done, so that errors come at once. The name of a folder shows no kind,
+// and one error is enough.
 void check_outputs(const CompileOptions& options, UsedFiles used, Diagnostics& diagnostics) {
     for (const auto& output : {options.output, options.declaration_file, options.dependency_file}) {
         if (!output) continue;
@@ -58,6 +59,33 @@ std::optional<OutputKind> output_kind(const fs::path& path) {
     return std::nullopt;
 }
 
+namespace {
+
+// What may have been meant by a file that cannot be read, for `error` of <cerrno>: its files for
+// the folder of a problem, and the nearest name for one that does not exist.
+std::string hint_of_unreadable(const fs::path& input, int error) {
+    const fs::path domain = input / "domain.rddl";
+    if (error == EISDIR && is_there(domain))
+        return fmt::format("name the files in it, such as {}", domain.string());
+    if (error != ENOENT) return "";
+    std::vector<std::string> names;
+    std::error_code ignored;
+    const fs::path folder = input.has_parent_path() ? input.parent_path() : ".";
+    for (const auto& entry : fs::directory_iterator(folder, ignored))
+        names.push_back((input.parent_path() / entry.path().filename()).string());
+    return hint_of_name(did_you_mean(input.string(), names));
+}
+
+void report_unreadable(const fs::path& input, int error, Diagnostics& diagnostics) {
+    diagnostics.report(
+        {.code = unreadable_file,
+         .span = {},
+         .message = fmt::format("cannot read '{}': {}", input.string(), std::strerror(error)),
+         .hint = hint_of_unreadable(input, error)});
+}
+
+}  // namespace
+
 std::vector<FileId> read_inputs(const CompileOptions& options, Sources& sources, UsedFiles& used,
                                 Diagnostics& diagnostics) {
     std::vector<fs::path> inputs = options.inputs;
@@ -67,14 +95,9 @@ std::vector<FileId> read_inputs(const CompileOptions& options, Sources& sources,
         const auto text = options.texts.find(input);
         const auto file = text != options.texts.end() ? sources.add(input.string(), text->second)
                                                       : sources.load(input);
+        if (!file) report_unreadable(input, errno, diagnostics);
         used.add(input);
-        if (file) {
-            files.push_back(*file);
-        } else {
-            const std::string message =
-                fmt::format("cannot read '{}': {}", input.string(), std::strerror(errno));
-            diagnostics.report({.code = unreadable_file, .span = {}, .message = message});
-        }
+        if (file) files.push_back(*file);
     }
     check_extern_headers(options, diagnostics);
     for (const fs::path& header : with_included_files(options.extern_headers)) used.add(header);

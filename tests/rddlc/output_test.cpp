@@ -70,7 +70,8 @@ TEST_F(Output, CannotBeAFolder) {
         EXPECT_TRUE(mentions(result, "hint: name a file in that folder")) << result.output;
         EXPECT_TRUE(mentions(result, "\n1 error\n")) << result.output;
     }
-    EXPECT_TRUE(mentions(compile_to("nowhere/sim"), "No such file or directory [E0902]\n1 error\n"));
+    EXPECT_TRUE(
+        mentions(compile_to("nowhere/sim"), "No such file or directory [E0902]\n1 error\n"));
 }
 
 TEST_F(Output, MayBeADevice) {
@@ -222,6 +223,11 @@ TEST_F(Output, NeedsInputsThatCanBeRead) {
         << missing.output;
     fs::create_directory("folder");
     EXPECT_TRUE(mentions(rddlc({"folder", "instance.rddl"}), "Is a directory [E0901]"));
+    fs::copy_file("domain.rddl", "folder/domain.rddl");
+    EXPECT_TRUE(
+        mentions(rddlc({"folder"}), "hint: name the files in it, such as folder/domain.rddl"));
+    EXPECT_TRUE(mentions(rddlc({"folder/domian.rddl", "instance.rddl"}),
+                         "hint: did you mean 'folder/domain.rddl'?"));
     if (::geteuid() != 0) {
         fs::permissions("domain.rddl", fs::perms::none);
         EXPECT_TRUE(mentions(compile_to("sim.cpp"), "Permission denied [E0901]"));
