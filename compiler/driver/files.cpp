@@ -61,8 +61,8 @@ std::optional<OutputKind> output_kind(const fs::path& path) {
 
 namespace {
 
-// What may have been meant by a file that cannot be read, for `error` of <cerrno>: its files for
-// the folder of a problem, and the nearest name for one that does not exist.
+// The hint for a file that cannot be read, where `error` is one of <cerrno>: a file in the folder
+// of a problem, and the nearest name where there is no such file.
 std::string hint_of_unreadable(const fs::path& input, int error) {
     const fs::path domain = input / "domain.rddl";
     if (error == EISDIR && is_there(domain))
