@@ -31,8 +31,7 @@ struct StepCheck {
 class StepChecker {
   public:
     explicit StepChecker(const ir::Program& program)
-        : program_(program),
-          interpreter_(program),
+        : interpreter_(program),
           straight_(unroll(program)),
           evaluation_(straight_, {}),
           states_(program, ir::Storage::State),
