@@ -13,13 +13,14 @@ DOCUMENTS = [ROOT / "docs" / page for page in ("benchmarks.md", "lanes.md", "pla
 
 
 def machine_text() -> str:
-    """Processor and number of its cores that this process may use."""
+    """Processor and number of cores of this machine, also where this process may use fewer."""
     model = platform.processor() or platform.machine()
     for line in Path("/proc/cpuinfo").read_text().splitlines():
         if line.startswith("model name"):
             model = line.split(":", 1)[1].strip()
             break
-    return f"{model}, {len(os.sched_getaffinity(0))} cores"
+    cores = os.cpu_count()
+    return f"{model}, {cores} core{'' if cores == 1 else 's'}"
 
 
 def markdown_table(rows: list[tuple[str, ...]]) -> str:

@@ -29,13 +29,22 @@ if(TARGET rddl_ppo)
           ${PROJECT_SOURCE_DIR}/support/files.hpp ${PROJECT_SOURCE_DIR}/support/number_word.hpp
           DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/support COMPONENT solvers)
   install(EXPORT rddlcSolverTargets NAMESPACE rddl:: DESTINATION ${package_folder} COMPONENT solvers)
+  # All that is installed and built, for a build folder that holds the programs alone.
+  add_custom_target(rddlc_installed)
+  add_dependencies(rddlc_installed rddlc rddl ${solver_targets})
+  if(TARGET rddl_mpi)
+    add_dependencies(rddlc_installed rddl_mpi)
+  endif()
 endif()
+# In a folder of their own, find_package() does not take the build folder for an installed package where
+# PATH names its programs.
+set(package_files ${PROJECT_BINARY_DIR}/package)
 configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/rddlcConfig.cmake.in
-  ${PROJECT_BINARY_DIR}/rddlcConfig.cmake INSTALL_DESTINATION ${package_folder})
-write_basic_package_version_file(${PROJECT_BINARY_DIR}/rddlcConfigVersion.cmake
+  ${package_files}/rddlcConfig.cmake INSTALL_DESTINATION ${package_folder})
+write_basic_package_version_file(${package_files}/rddlcConfigVersion.cmake
   COMPATIBILITY SameMinorVersion)
-install(FILES ${PROJECT_BINARY_DIR}/rddlcConfig.cmake
-              ${PROJECT_BINARY_DIR}/rddlcConfigVersion.cmake
+install(FILES ${package_files}/rddlcConfig.cmake
+              ${package_files}/rddlcConfigVersion.cmake
               ${CMAKE_CURRENT_LIST_DIR}/RddlAddSimulator.cmake
               ${CMAKE_CURRENT_LIST_DIR}/RddlAddSolver.cmake
               ${CMAKE_CURRENT_LIST_DIR}/RddlSimulatorFlags.cmake

@@ -5,13 +5,13 @@
 //     sources   examples/cart_pole/domain.rddl
 //               examples/cart_pole/instance.rddl
 //
-// Use: compile with -std=c++20 -O3 -ffp-contract=off, with g++ -fno-tree-loop-distribute-patterns,
-// too, and rddlc's include folder. Link it and call the extern "C" function
+// Compile it with -std=c++20 -O3 -ffp-contract=off and rddlc's include folder; g++ also needs
+// -fno-tree-loop-distribute-patterns. Link it and call the extern "C" function
 //
 //     rddl_simulator_cart_pole_cart_pole_1
 //
-// or make a shared object with -shared -fPIC -DRDDL_ENTRY=rddl_simulator_entry for dlopen.
-// <rddl/simulator.h> tells what to do with the rddl_simulator that it returns.
+// or make a shared object for dlopen with -shared -fPIC -DRDDL_ENTRY=rddl_simulator_entry.
+// <rddl/simulator.h> describes the rddl_simulator that it returns.
 
 #include <rddl/simulator.hpp>
 
@@ -39,7 +39,7 @@ struct Action {
     typename L::Bool push_right;  // domain.rddl:38
 };
 
-// What the CPFs tell each other within a step.
+// Values that CPFs compute and others read, within a step.
 template <class L>
 struct Scratch {
     typename L::Real friction;   // domain.rddl:32
@@ -194,7 +194,7 @@ struct Simulator {
         return rddl::to_real(condition);
     }
 
-    // An episode ends where one of these holds.
+    // Whether one of the terminations holds, so that the episode ends.
     template <class L>
     static typename L::Bool terminal(const State<L>& state, rddl::Context<L>& /*context*/) {
         rddl::Terminations<L> conditions;
@@ -215,14 +215,14 @@ struct Simulator {
         return rddl::absolute(state.angle) > 0.2094384;
     }
 
-    // Hold in every state that makes sense.
+    // Whether the state breaks one of the invariants.
     template <class L>
     static typename L::Bool violates_invariant(const State<L>& /*state*/,
                                                rddl::Context<L>& /*context*/) {
         return false;
     }
 
-    // Hold for every action that is allowed: the first that does not, or -1.
+    // The first precondition that the action violates, or -1.
     template <class L>
     static typename L::Int violated_precondition(const State<L>& /*state*/,
                                                  const Action<L>& /*action*/,
@@ -235,7 +235,7 @@ static_assert(sizeof(State<rddl::Scalar>) == 32);
 static_assert(offsetof(State<rddl::Scalar>, angle_change) == 24);
 static_assert(sizeof(Action<rddl::Scalar>) == 1);
 
-// --------------------------------------------------- what the simulator tells about itself
+// --------------------------------------------------------------- description of the problem
 
 namespace about {
 

@@ -5,13 +5,13 @@
 //     sources   examples/delivery/domain.rddl
 //               examples/delivery/instance.rddl
 //
-// Use: compile with -std=c++20 -O3 -ffp-contract=off, with g++ -fno-tree-loop-distribute-patterns,
-// too, and rddlc's include folder. Link it and call the extern "C" function
+// Compile it with -std=c++20 -O3 -ffp-contract=off and rddlc's include folder; g++ also needs
+// -fno-tree-loop-distribute-patterns. Link it and call the extern "C" function
 //
 //     rddl_simulator_delivery_delivery_1
 //
-// or make a shared object with -shared -fPIC -DRDDL_ENTRY=rddl_simulator_entry for dlopen.
-// <rddl/simulator.h> tells what to do with the rddl_simulator that it returns.
+// or make a shared object for dlopen with -shared -fPIC -DRDDL_ENTRY=rddl_simulator_entry.
+// <rddl/simulator.h> describes the rddl_simulator that it returns.
 
 #include <rddl/simulator.hpp>
 
@@ -80,7 +80,7 @@ struct Action {
     std::array<std::array<typename L::Bool, parcel_count>, van_count> take;  // domain.rddl:51
 };
 
-// What the CPFs tell each other within a step.
+// Values that CPFs compute and others read, within a step.
 template <class L>
 struct Scratch {
     std::array<typename L::Real, van_count> grip;       // domain.rddl:46
@@ -207,7 +207,7 @@ struct Simulator {
         return total - rddl::to_real(action.go[0] != 0);
     }
 
-    // An episode ends where one of these holds.
+    // Whether one of the terminations holds, so that the episode ends.
     template <class L>
     static typename L::Bool terminal(const State<L>& state, rddl::Context<L>& /*context*/) {
         rddl::Terminations<L> conditions;
@@ -224,20 +224,19 @@ struct Simulator {
         });
     }
 
-    // Hold in every state that makes sense.
+    // Whether the state breaks one of the invariants.
     template <class L>
     static typename L::Bool violates_invariant(const State<L>& /*state*/,
                                                rddl::Context<L>& /*context*/) {
         return false;
     }
 
-    // Hold for every action that is allowed: the first that does not, or -1.
+    // The first precondition that the action violates, or -1. The others always hold.
     template <class L>
     static typename L::Int violated_precondition(const State<L>& state, const Action<L>& action,
                                                  rddl::Context<L>& context) {
         rddl::Preconditions<L> conditions(context);
         if (conditions.go_on()) conditions.add(0, precondition_0(state, action));
-        if (conditions.go_on()) conditions.add(1, precondition_1<L>());
         return conditions.first_violated();
     }
 
@@ -249,12 +248,6 @@ struct Simulator {
             return !action.take[0][p] || (state.status[p] == 0 && state.position[0] == ORIGIN_[p]);
         });
     }
-
-    // forall_{?p : parcel} [(sum_{?v : van} [take(?v, ?p)]) <= 1]  (domain.rddl:104)
-    template <class L>
-    static typename L::Bool precondition_1() {
-        return true;
-    }
 };
 
 static_assert(sizeof(State<rddl::Scalar>) == 64);
@@ -262,7 +255,7 @@ static_assert(offsetof(State<rddl::Scalar>, carrier) == 40);
 static_assert(sizeof(Action<rddl::Scalar>) == 16);
 static_assert(offsetof(Action<rddl::Scalar>, take) == 8);
 
-// --------------------------------------------------- what the simulator tells about itself
+// --------------------------------------------------------------- description of the problem
 
 namespace about {
 

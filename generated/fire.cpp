@@ -5,13 +5,13 @@
 //     sources   examples/fire/domain.rddl
 //               examples/fire/instance.rddl
 //
-// Use: compile with -std=c++20 -O3 -ffp-contract=off, with g++ -fno-tree-loop-distribute-patterns,
-// too, and rddlc's include folder. Link it and call the extern "C" function
+// Compile it with -std=c++20 -O3 -ffp-contract=off and rddlc's include folder; g++ also needs
+// -fno-tree-loop-distribute-patterns. Link it and call the extern "C" function
 //
 //     rddl_simulator_fire_fire_1
 //
-// or make a shared object with -shared -fPIC -DRDDL_ENTRY=rddl_simulator_entry for dlopen.
-// <rddl/simulator.h> tells what to do with the rddl_simulator that it returns.
+// or make a shared object for dlopen with -shared -fPIC -DRDDL_ENTRY=rddl_simulator_entry.
+// <rddl/simulator.h> describes the rddl_simulator that it returns.
 
 #include <rddl/simulator.hpp>
 
@@ -99,7 +99,7 @@ struct Action {
     std::array<std::array<typename L::Bool, ypos_count>, xpos_count> clear;  // domain.rddl:46
 };
 
-// What the CPFs tell each other within a step.
+// Values that CPFs compute and others read, within a step.
 template <class L>
 struct Scratch {
     std::array<std::array<typename L::Bool, ypos_count>, xpos_count> ignites;  // domain.rddl:43
@@ -207,13 +207,13 @@ struct Simulator {
         return -term_2;
     }
 
-    // An episode ends where one of these holds.
+    // Whether one of the terminations holds, so that the episode ends.
     template <class L>
     static typename L::Bool terminal(const State<L>& /*state*/, rddl::Context<L>& /*context*/) {
         return false;
     }
 
-    // Hold in every state that makes sense.
+    // Whether the state breaks one of the invariants.
     template <class L>
     static typename L::Bool violates_invariant(const State<L>& state, rddl::Context<L>& context) {
         rddl::Invariants<L> conditions(context);
@@ -227,7 +227,7 @@ struct Simulator {
         return rddl::bit_and(rddl::bits(state.burning), rddl::bits(state.bare)) == 0;
     }
 
-    // Hold for every action that is allowed: the first that does not, or -1.
+    // The first precondition that the action violates, or -1.
     template <class L>
     static typename L::Int violated_precondition(const State<L>& state, const Action<L>& action,
                                                  rddl::Context<L>& context) {
@@ -241,8 +241,8 @@ struct Simulator {
     template <class L>
     static typename L::Bool precondition_0(const State<L>& state, const Action<L>& action) {
         using Int = typename L::Int;
-        const Int bits = rddl::action_bits(action.douse);
-        return rddl::bit_and(bits, rddl::bit_xor(rddl::bits(state.burning), -1)) == 0;
+        const Int douse = rddl::action_bits(action.douse);
+        return rddl::bit_and(douse, rddl::bit_xor(rddl::bits(state.burning), -1)) == 0;
     }
 
     // forall_{?c : xpos, ?r : ypos} [ clear(?c, ?r) => ~(burning(?c, ?r) | bar...  (domain.rddl:78)
@@ -260,7 +260,7 @@ static_assert(offsetof(State<rddl::Scalar>, bare) == 25);
 static_assert(sizeof(Action<rddl::Scalar>) == 50);
 static_assert(offsetof(Action<rddl::Scalar>, clear) == 25);
 
-// --------------------------------------------------- what the simulator tells about itself
+// --------------------------------------------------------------- description of the problem
 
 namespace about {
 

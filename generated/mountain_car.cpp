@@ -5,13 +5,13 @@
 //     sources   examples/mountain_car/domain.rddl
 //               examples/mountain_car/instance.rddl
 //
-// Use: compile with -std=c++20 -O3 -ffp-contract=off, with g++ -fno-tree-loop-distribute-patterns,
-// too, and rddlc's include folder. Link it and call the extern "C" function
+// Compile it with -std=c++20 -O3 -ffp-contract=off and rddlc's include folder; g++ also needs
+// -fno-tree-loop-distribute-patterns. Link it and call the extern "C" function
 //
 //     rddl_simulator_mountain_car_mountain_car_1
 //
-// or make a shared object with -shared -fPIC -DRDDL_ENTRY=rddl_simulator_entry for dlopen.
-// <rddl/simulator.h> tells what to do with the rddl_simulator that it returns.
+// or make a shared object for dlopen with -shared -fPIC -DRDDL_ENTRY=rddl_simulator_entry.
+// <rddl/simulator.h> describes the rddl_simulator that it returns.
 
 #include <rddl/simulator.hpp>
 
@@ -54,7 +54,7 @@ struct Action {
     typename L::Real throttle;  // domain.rddl:45
 };
 
-// What the CPFs tell each other within a step.
+// Values that CPFs compute and others read, within a step.
 template <class L>
 struct Scratch {
     typename L::Real slope;  // domain.rddl:42
@@ -130,7 +130,7 @@ struct Simulator {
                0.1 * (action.throttle * action.throttle);
     }
 
-    // An episode ends where one of these holds.
+    // Whether one of the terminations holds, so that the episode ends.
     template <class L>
     static typename L::Bool terminal(const State<L>& state, rddl::Context<L>& /*context*/) {
         rddl::Terminations<L> conditions;
@@ -144,14 +144,14 @@ struct Simulator {
         return state.position >= 0.5;
     }
 
-    // Hold in every state that makes sense.
+    // Whether the state breaks one of the invariants.
     template <class L>
     static typename L::Bool violates_invariant(const State<L>& /*state*/,
                                                rddl::Context<L>& /*context*/) {
         return false;
     }
 
-    // Hold for every action that is allowed: the first that does not, or -1.
+    // The first precondition that the action violates, or -1.
     template <class L>
     static typename L::Int violated_precondition(const State<L>& /*state*/, const Action<L>& action,
                                                  rddl::Context<L>& context) {
@@ -178,7 +178,7 @@ static_assert(sizeof(State<rddl::Scalar>) == 16);
 static_assert(offsetof(State<rddl::Scalar>, velocity) == 8);
 static_assert(sizeof(Action<rddl::Scalar>) == 8);
 
-// --------------------------------------------------- what the simulator tells about itself
+// --------------------------------------------------------------- description of the problem
 
 namespace about {
 

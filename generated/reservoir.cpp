@@ -5,13 +5,13 @@
 //     sources   examples/reservoir/domain.rddl
 //               examples/reservoir/instance.rddl
 //
-// Use: compile with -std=c++20 -O3 -ffp-contract=off, with g++ -fno-tree-loop-distribute-patterns,
-// too, and rddlc's include folder. Link it and call the extern "C" function
+// Compile it with -std=c++20 -O3 -ffp-contract=off and rddlc's include folder; g++ also needs
+// -fno-tree-loop-distribute-patterns. Link it and call the extern "C" function
 //
 //     rddl_simulator_reservoir_reservoir_1
 //
-// or make a shared object with -shared -fPIC -DRDDL_ENTRY=rddl_simulator_entry for dlopen.
-// <rddl/simulator.h> tells what to do with the rddl_simulator that it returns.
+// or make a shared object for dlopen with -shared -fPIC -DRDDL_ENTRY=rddl_simulator_entry.
+// <rddl/simulator.h> describes the rddl_simulator that it returns.
 
 #include <rddl/simulator.hpp>
 
@@ -71,7 +71,7 @@ struct Action {
     std::array<typename L::Real, basin_count> release;  // domain.rddl:43
 };
 
-// What the CPFs tell each other within a step.
+// Values that CPFs compute and others read, within a step.
 template <class L>
 struct Scratch {
     std::array<typename L::Real, basin_count> balance;  // domain.rddl:40
@@ -159,13 +159,13 @@ struct Simulator {
         return -total;
     }
 
-    // An episode ends where one of these holds.
+    // Whether one of the terminations holds, so that the episode ends.
     template <class L>
     static typename L::Bool terminal(const State<L>& /*state*/, rddl::Context<L>& /*context*/) {
         return false;
     }
 
-    // Hold in every state that makes sense.
+    // Whether the state breaks one of the invariants.
     template <class L>
     static typename L::Bool violates_invariant(const State<L>& state, rddl::Context<L>& context) {
         rddl::Invariants<L> conditions(context);
@@ -192,7 +192,7 @@ struct Simulator {
         });
     }
 
-    // Hold for every action that is allowed: the first that does not, or -1.
+    // The first precondition that the action violates, or -1.
     template <class L>
     static typename L::Int violated_precondition(const State<L>& state, const Action<L>& action,
                                                  rddl::Context<L>& context) {
@@ -238,7 +238,7 @@ inline constexpr std::array<std::int64_t, 3> FLOWS_TO_up_ = {0, 1, 2};
 // draws of every step, whose numbers are made together
 inline constexpr std::array step_draws = {rddl::counters_of_loop(0)};
 
-// What the CPFs tell each other within a step.
+// Values that CPFs compute and others read, within a step.
 template <class L>
 struct Scratch {
     std::array<typename L::Real, basin_count> balance;  // domain.rddl:40
@@ -326,7 +326,7 @@ using FastSimulator = rddl::WithModerateStep<Simulator, moderate::Step>;
 static_assert(sizeof(State<rddl::Scalar>) == 32);
 static_assert(sizeof(Action<rddl::Scalar>) == 32);
 
-// --------------------------------------------------- what the simulator tells about itself
+// --------------------------------------------------------------- description of the problem
 
 namespace about {
 

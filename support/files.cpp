@@ -77,6 +77,12 @@ int open_file(const fs::path& path, int flags, mode_t mode = 0) {
     return ::open(path.c_str(), flags | O_CLOEXEC, mode);
 }
 
+// Whether writing there goes to a pipe, a device or an open descriptor, and makes no file.
+bool is_stream_at(const fs::path& target) {
+    const auto status = status_of(target);
+    return status && (!is_regular(status) || descriptor_named(target));
+}
+
 std::string name_of_descriptor(int descriptor) {
     return fmt::format("/proc/self/fd/{}", descriptor);
 }
@@ -184,18 +190,20 @@ bool UsedFiles::contain(int descriptor) const {
 
 // ------------------------------------------------------------------------------------- writing
 
-void require_writable(const fs::path& path, const UsedFiles& used) {
-    const fs::path target = target_of(path);
+namespace {
+
+// Throws UnwritableFile if permissions or kinds of files forbid an output there.
+void require_allowed(const fs::path& path, const fs::path& target, const UsedFiles& used) {
     const auto status = status_of(target);
-    if (status && S_ISDIR(status->st_mode)) throw UnwritableFile(path, EISDIR);
+    if (!target.has_filename() || (status && S_ISDIR(status->st_mode)))
+        throw UnwritableFile(path, EISDIR, "name a file in that folder");
     if (used.contain(path)) throw UnwritableFile::in_use(path);
     // Effective user, not the real one.
     const auto may_write = [](const fs::path& place) {
         return ::faccessat(AT_FDCWD, place.c_str(), W_OK, AT_EACCESS) == 0;
     };
     if (status && !may_write(target)) throw UnwritableFile(path, errno);
-    const bool is_stream = status && (!is_regular(status) || descriptor_named(target));
-    if (is_stream) return;
+    if (is_stream_at(target)) return;
     const fs::path folder = folder_of(target);
     const auto folder_status = status_of(folder);
     if (!folder_status) throw UnwritableFile(path, errno);
@@ -203,11 +211,19 @@ void require_writable(const fs::path& path, const UsedFiles& used) {
     if (!may_write(folder)) throw UnwritableFile(path, errno);
 }
 
+}  // namespace
+
+// Permissions do not tell all: no file can be made in /proc, whatever they are.
+void require_writable(const fs::path& path, const UsedFiles& used) {
+    const fs::path target = target_of(path);
+    require_allowed(path, target, used);
+    if (!is_stream_at(target)) OutputFile(path, used);
+}
+
 OutputFile::OutputFile(const fs::path& path, const UsedFiles& used, mode_t mode)
     : path_(path), target_(target_of(path)) {
-    require_writable(path, used);
-    const auto status = status_of(target_);
-    if (status && (!is_regular(status) || descriptor_named(target_)))
+    require_allowed(path, target_, used);
+    if (is_stream_at(target_))
         open_stream();
     else
         open_temporary(mode);
@@ -245,7 +261,7 @@ void OutputFile::open_named(mode_t mode) {
     } while (descriptor_ < 0 && errno == EEXIST);
     if (descriptor_ >= 0) return;
     temporary_.clear();
-    throw UnwritableFile(path_, errno);
+    throw UnwritableFile(path_, errno, "no file can be made in that folder");
 }
 
 // Only renaming replaces a file, so the name lasts for a moment.

@@ -62,8 +62,7 @@ class UsedFiles {
     std::set<Identity> files_;
 };
 
-// Throws UnwritableFile if it is clear already that an OutputFile cannot be made there. Changes
-// nothing.
+// Throws UnwritableFile if an OutputFile cannot be made there now. Leaves everything as it was.
 void require_writable(const std::filesystem::path& path, const UsedFiles& used);
 
 // A file that is being written. A regular file, or one that does not exist, gets its name when it

@@ -123,11 +123,11 @@ void add_stage_options(Command& command, Arguments& arguments) {
     add_list_option(command, "--print", "FORM,...",
                     "print an intermediate form of the problem: ast, model, ir, ir-opt, cpp",
                     [&arguments](const std::string& form) { arguments.print.push_back(form); })
-        .suggestions = {"ast", "model", "ir", "ir-opt", "cpp"};
+        .choices = {"ast", "model", "ir", "ir-opt", "cpp"};
     add_text_option(command, "--stop-after", "STAGE",
                     "stop after a stage: read, parse, check, ground, verify, optimise, emit",
                     arguments.stop_after)
-        .suggestions = {"read", "parse", "check", "ground", "verify", "optimise", "emit"};
+        .choices = {"read", "parse", "check", "ground", "verify", "optimise", "emit"};
     add_flag(command, "--check",
              "only check: the same as --stop-after=check; a domain may stand alone",
              arguments.check_only);
@@ -230,11 +230,7 @@ std::optional<Stage> last_wanted_stage(const Arguments& arguments, const std::se
 
 Stage last_stage(const Arguments& arguments, const std::set<Form>& print) {
     Stage last = Stage::Write;
-    if (!arguments.stop_after.empty()) {
-        const auto stage = stage_named(arguments.stop_after);
-        if (!stage) throw usage(fmt::format("there is no stage '{}'", arguments.stop_after));
-        last = *stage;
-    }
+    if (!arguments.stop_after.empty()) last = *stage_named(arguments.stop_after);
     if (arguments.check_only) last = std::min(last, Stage::Check);
     // A user who only wants a form does not wait for the stages after it.
     if (!arguments.output.empty()) return last;
@@ -244,11 +240,7 @@ Stage last_stage(const Arguments& arguments, const std::set<Form>& print) {
 
 std::set<Form> printed_forms(const Arguments& arguments) {
     std::set<Form> forms;
-    for (const std::string& name : arguments.print) {
-        const auto form = form_named(name);
-        if (!form) throw usage(fmt::format("there is no form '{}' to print", name));
-        forms.insert(*form);
-    }
+    for (const std::string& name : arguments.print) forms.insert(*form_named(name));
     const bool anything_else = !arguments.output.empty() || !arguments.stop_after.empty() ||
                                arguments.check_only || !arguments.statistics.empty();
     if (forms.empty() && !anything_else) forms.insert(Form::Cpp);

@@ -22,13 +22,17 @@ std::string in_small_letters(std::string_view word) {
     return small;
 }
 
+std::vector<std::string> all_distribution_names() {
+    std::vector<std::string> distributions = distribution_names();
+    distributions.insert(distributions.end(), {"Discrete", "UnnormDiscrete"});
+    return distributions;
+}
+
 // The distribution that another language calls by this name.
 std::string distribution_meant_by(std::string_view name) {
     const std::string small = in_small_letters(name);
     if (small == "gaussian" || small == "gauss") return "Normal";
-    std::vector<std::string> distributions = distribution_names();
-    distributions.insert(distributions.end(), {"Discrete", "UnnormDiscrete"});
-    for (const std::string& each : distributions)
+    for (const std::string& each : all_distribution_names())
         if (in_small_letters(each) == small) return each;
     return "";
 }
@@ -61,6 +65,12 @@ std::vector<Replacement> other_brackets(const SyntaxError& error, std::size_t op
             {place_of(error, *error.tokens[*close]), std::string(closer)}};
 }
 
+// Whether the text has the name only here, and so declares no such fluent.
+bool occurs_once(const SyntaxError& error, const std::string& name) {
+    return std::ranges::count_if(error.tokens,
+                                 [&](const auto& token) { return token->getText() == name; }) == 1;
+}
+
 // f(x + 1): the parentheses were read as those of a fluent.
 Hint round_brackets_of_a_function(const SyntaxError& error) {
     const auto open = innermost_open(error.tokens, error.index);
@@ -78,11 +88,15 @@ Hint round_brackets_of_a_function(const SyntaxError& error) {
                 {{place_of(error, name), meant}}};
     if (inside(error, Parser::RuleSymbols) || inside(error, Parser::RulePvariable)) return {};
     static const TokenTypes terms = {Parser::VAR, Parser::ENUM, Parser::ID};
-    if (inside(error, Parser::RuleSimpleTerm) && !terms.contains(error.found().getType()))
+    if (inside(error, Parser::RuleSimpleTerm) && !terms.contains(error.found().getType())) {
+        const auto near = did_you_mean(name.getText(), all_distribution_names());
+        if (near && occurs_once(error, name.getText()))
+            return hint_of_name(near, place_of(error, name));
         return fmt::format(
             "'{}(...)' is a fluent, and the arguments of a fluent are variables, "
             "@values and fluents, not expressions",
             name.getText());
+    }
     return {};
 }
 

@@ -122,7 +122,8 @@ class Scanner {
         const Level& level = levels_.back();
         if (levels_.size() > max_nesting + 1)
             return Diagnostic{nested_too_deeply, span_at(level.opened_at),
-                              fmt::format("more than {} brackets inside each other", max_nesting)};
+                              fmt::format("more than {} brackets inside each other", max_nesting)}
+                .with_hint("split the expression with interm-fluents");
         if (level.chunk_depth() > max_depth)
             return Diagnostic{
                 expression_too_long, span_at(level.chunk_begin),

@@ -20,8 +20,12 @@ bool is_text(FileId file, const Source& source, Diagnostics& diagnostics) {
     const std::size_t nul = source.text().find('\0');
     if (nul == std::string::npos) return true;
     const auto at = static_cast<std::uint32_t>(nul);
-    diagnostics.report(
-        {not_utf8_text, Span{file, at, at + 1}, "this is not a text file: it has a NUL byte"});
+    const bool is_utf16 =
+        source.text().starts_with("\xff\xfe") || source.text().starts_with("\xfe\xff");
+    diagnostics.report(Diagnostic{not_utf8_text, Span{file, at, at + 1},
+                                  "this is not a text file: it has a NUL byte"}
+                           .with_hint(is_utf16 ? "it seems to be UTF-16; save it as UTF-8"
+                                               : "RDDL is text, saved as UTF-8"));
     return false;
 }
 

@@ -31,8 +31,7 @@ struct StepCheck {
 class StepChecker {
   public:
     explicit StepChecker(const ir::Program& program)
-        : program_(program),
-          interpreter_(program),
+        : interpreter_(program),
           straight_(unroll(program)),
           evaluation_(straight_, {}),
           states_(program, ir::Storage::State),
@@ -223,7 +222,6 @@ class StepChecker {
 
     static constexpr std::size_t most_inputs = 40;  // of a step
 
-    const ir::Program& program_;
     ir::Interpreter interpreter_;
     StraightLine straight_;
     Evaluation evaluation_;

@@ -7,6 +7,7 @@ import argparse
 import contextlib
 import io
 import json
+import os
 import sys
 import tempfile
 import unittest
@@ -401,6 +402,13 @@ class Segments(unittest.TestCase):
 
 
 class Document(unittest.TestCase):
+    def test_names_the_machine(self):
+        """All its cores count, also those that this process may not use."""
+        for cores, text in (1, ", 1 core"), (8, ", 8 cores"):
+            with patch.object(os, "cpu_count", return_value=cores), \
+                    patch.object(os, "sched_getaffinity", return_value={0}):
+                self.assertTrue(document.machine_text().endswith(text), document.machine_text())
+
     def test_replaces_a_section(self):
         with tempfile.TemporaryDirectory() as folder:
             page = Path(folder) / "page.md"

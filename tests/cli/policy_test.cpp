@@ -179,6 +179,7 @@ TEST_F(PolicyProgram, SaysWhatIsMissing) {
     EXPECT_NE(unknown.err.find("'greedy' is neither random, noop, rddl nor a file"),
               std::string::npos)
         << unknown.err;
+    EXPECT_NE(run(run_it + "randm").err.find("; did you mean 'random'?"), std::string::npos);
 }
 
 TEST_F(PolicyProgram, SaysWhatIsWrong) {

@@ -247,6 +247,8 @@ TEST(Errors, DistributionsOfOtherLanguages) {
             errors_in_reward(std::string(written) + "(0.0, 1.0)")
                 .ends_with(" | the distribution is written " + std::string(meant) + "(...)"))
             << errors_in_reward(std::string(written) + "(0.0, 1.0)");
+    EXPECT_TRUE(errors_in_reward("Norml(0.0, 1.0)").ends_with(" | did you mean 'Normal'?"))
+        << errors_in_reward("Norml(0.0, 1.0)");
 }
 
 TEST(Errors, AMisspeltBlockIsOneError) {

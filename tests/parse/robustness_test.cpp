@@ -94,6 +94,8 @@ TEST(Robustness, BinaryFiles) {
                   .codes(),
               "E0107");
     EXPECT_EQ(parse_text(std::string(5, '\0')).codes(), "E0107");
+    const std::string utf16("\xff\xfe\x64\0\x6f\0", 6);
+    EXPECT_NE(parse_text(utf16).report().find("save it as UTF-8"), std::string::npos);
 }
 
 TEST(Robustness, InvalidUtf8) {

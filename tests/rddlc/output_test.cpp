@@ -50,9 +50,28 @@ TEST_F(Output, CannotGoWhereThereIsNoFolder) {
     EXPECT_TRUE(mentions(result, "[E0902]")) << result.output;
 }
 
+// The C++ compiler, which would take long, is not asked.
+TEST_F(Output, CannotGoWhereNoFileCanBeMade) {
+    const Result result = rddlc({"domain.rddl", "instance.rddl", "-o", "/proc/sim.so", "-v"});
+    EXPECT_EQ(result.status, 1);
+    EXPECT_TRUE(mentions(result, "cannot write '/proc/sim.so'")) << result.output;
+    EXPECT_TRUE(mentions(result, "hint: no file can be made in that folder")) << result.output;
+    EXPECT_TRUE(mentions(result, "read ")) << result.output;
+    EXPECT_FALSE(mentions(result, "parse ")) << result.output;
+}
+
+// The name of a folder does not also fail to show the kind of output.
 TEST_F(Output, CannotBeAFolder) {
     fs::create_directory("sim.cpp");
-    EXPECT_TRUE(mentions(compile_to("sim.cpp"), "Is a directory [E0902]"));
+    fs::create_directory("sims");
+    for (const char* folder : {"sim.cpp", "sim.cpp/", "sims", "sims/", ".", "new.cpp/"}) {
+        const Result result = compile_to(folder);
+        EXPECT_TRUE(mentions(result, "Is a directory [E0902]")) << result.output;
+        EXPECT_TRUE(mentions(result, "hint: name a file in that folder")) << result.output;
+        EXPECT_TRUE(mentions(result, "\n1 error\n")) << result.output;
+    }
+    EXPECT_TRUE(
+        mentions(compile_to("nowhere/sim"), "No such file or directory [E0902]\n1 error\n"));
 }
 
 TEST_F(Output, MayBeADevice) {
@@ -204,6 +223,11 @@ TEST_F(Output, NeedsInputsThatCanBeRead) {
         << missing.output;
     fs::create_directory("folder");
     EXPECT_TRUE(mentions(rddlc({"folder", "instance.rddl"}), "Is a directory [E0901]"));
+    fs::copy_file("domain.rddl", "folder/domain.rddl");
+    EXPECT_TRUE(
+        mentions(rddlc({"folder"}), "hint: name the files in it, such as folder/domain.rddl"));
+    EXPECT_TRUE(mentions(rddlc({"folder/domian.rddl", "instance.rddl"}),
+                         "hint: did you mean 'folder/domain.rddl'?"));
     if (::geteuid() != 0) {
         fs::permissions("domain.rddl", fs::perms::none);
         EXPECT_TRUE(mentions(compile_to("sim.cpp"), "Permission denied [E0901]"));

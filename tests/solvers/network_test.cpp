@@ -322,7 +322,9 @@ TEST(Gru, ComputesWhatThePlainEquationsDo) {
 }
 
 TEST(Gru, GradientAgreesWithFiniteDifferencesThroughTime) {
-    for (const auto& [inputs, units] : {std::pair{2, 3}, {3, 9}}) {
+    // clang++ 14 captures no structured bindings.
+    for (const std::pair<int, int>& size : {std::pair{2, 3}, {3, 9}}) {
+        const int inputs = size.first, units = size.second;
         const Gru gru = make_gru(inputs, units);
         auto parameters = gru_parameters(gru, 4);
         const RowsOfSteps steps;

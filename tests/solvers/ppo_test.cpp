@@ -524,8 +524,9 @@ TEST(Ppo, ReluNetworksAreReadAsTheyWereWritten) {
     std::string other = text;
     other.replace(other.find("\"relu\""), 6, "\"gelu\"");
     EXPECT_EQ(complaint([&] { read_ppo_policy(car, other); }), "its activation is unknown: 'gelu'");
-    for (const auto& [from, to] : {std::pair{&relu, &tanh}, {&tanh, &relu}})
-        EXPECT_EQ(complaint([&] { to->load(from->save()); }),
+    // clang++ 14 captures no structured bindings.
+    for (const auto& runs : {std::pair{&relu, &tanh}, {&tanh, &relu}})
+        EXPECT_EQ(complaint([&] { runs.second->load(runs.first->save()); }),
                   "it is of a run with other networks: --hidden, --activation, --stack and "
                   "--recurrent have to be as they were");
 }

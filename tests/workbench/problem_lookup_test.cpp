@@ -138,6 +138,12 @@ TEST_F(Lookup, FoldersHoldADomainAndItsInstances) {
     EXPECT_EQ(failure((root_ / "archive").string(), "1"),
               "there is no domain.rddl in '" + (root_ / "archive").string() +
                   "' | name the files: DOMAIN INSTANCE");
+    const fs::path bare = root_ / "bare";
+    fs::create_directory(bare);
+    fs::copy_file(lonely / "domain.rddl", bare / "domain.rddl");
+    for (const char* instance : {"", "1"})
+        EXPECT_EQ(failure(bare.string(), instance), "there is no instance in '" + bare.string() +
+                                                        "' | name the files: DOMAIN INSTANCE");
 }
 
 TEST_F(Lookup, NamesMayBeToldByTheirBeginning) {

@@ -237,6 +237,9 @@ const RepositoryProblem& find_problem(const Repository& repository, std::string_
 
 ProblemFiles find_instance(const RepositoryProblem& problem, std::string_view instance) {
     const auto& known = problem.instances;
+    if (known.empty())
+        throw Failure(fmt::format("there is no instance in '{}'", problem.folder.string()),
+                      "name the files: DOMAIN INSTANCE");
     const std::string offer = fmt::format("it has {}", fmt::join(known, ", "));
     if (instance.empty()) throw Failure(fmt::format("which instance of {}?", problem.name), offer);
     if (std::find(known.begin(), known.end(), instance) == known.end())

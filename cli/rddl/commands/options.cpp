@@ -3,6 +3,7 @@
 #include "driver/driver.hpp"
 #include "learning/learned_policy.hpp"
 #include "solvers/spaces/refusals.hpp"
+#include "support/suggestion.hpp"
 
 #include <fmt/format.h>
 
@@ -94,9 +95,17 @@ void add_engine_options(Command& command, LoadOptions& options) {
 
 namespace {
 
+constexpr std::array policies_of_one_word = {Policy::Random, Policy::Noop, Policy::Rddl};
+
+std::vector<std::string> names_of_policies() {
+    std::vector<std::string> names;
+    for (const Policy each : policies_of_one_word) names.emplace_back(name_of(each));
+    return names;
+}
+
 void choose_policy(const std::string& name, Policy& policy,
                    std::optional<std::filesystem::path>& file, RolloutOptions* rollouts) {
-    for (const Policy each : {Policy::Random, Policy::Noop, Policy::Rddl}) {
+    for (const Policy each : policies_of_one_word) {
         if (name_of(each) != name) continue;
         policy = each;
         file.reset();
@@ -109,8 +118,9 @@ void choose_policy(const std::string& name, Policy& policy,
         return;
     }
     if (!is_path(name))
-        throw UsageError(
-            fmt::format("--policy: '{}' is neither random, noop, rddl nor a file", name));
+        throw UsageError(fmt::format("--policy: '{}' is neither random, noop, rddl nor a file{}",
+                                     name,
+                                     ending_with_name(did_you_mean(name, names_of_policies()))));
     if (is_learned_policy(name)) {
         if (!rollouts)
             throw UsageError(

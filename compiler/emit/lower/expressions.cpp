@@ -47,8 +47,12 @@ void Uses::add(const Uses& others) {
 
 // -------------------------------------------------------------------------------- names
 
-std::string Expressions::enter(ir::VariableId variable) {
-    return variables_[variable] = scope_.claim(unit_.program[variable].name);
+// Passes number indices of tables that are bound inside each other ("entry-2"). Scopes do it here.
+std::string Expressions::enter(ir::VariableId id) {
+    const ir::Variable& variable = unit_.program[id];
+    const std::string name =
+        variable.type ? variable.name : variable.name.substr(0, variable.name.find('-'));
+    return variables_[id] = scope_.claim(name);
 }
 
 Expressions::ObjectNames Expressions::enter(ir::Nest nest) {

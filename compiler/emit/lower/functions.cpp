@@ -311,6 +311,13 @@ tree::Statement add_condition(const ConditionKind& kind, std::size_t k,
     return {tree::If{tree::call(conditions_name + ".go_on", {}), std::move(add)}};
 }
 
+// Whether the instance makes it true of every state and action; a termination false.
+bool is_idle(const ir::Program& program, const ConditionKind& kind,
+             const ir::Computation& computation) {
+    const bool idle = kind.word != "termination";
+    return computation.body.empty() && ir::constant<bool>(program, computation.value) == idle;
+}
+
 tree::Block conditions(const Unit& unit, const ConditionKind& kind,
                        const std::vector<ir::Computation>& computations) {
     Uses all;
@@ -318,6 +325,7 @@ tree::Block conditions(const Unit& unit, const ConditionKind& kind,
     tree::Block functions;
     for (std::size_t k = 0; k < computations.size(); ++k) {
         const ir::Computation& computation = computations[k];
+        if (is_idle(unit.program, kind, computation)) continue;
         FunctionBody body(unit, level + 1);
         body.block(computation.body);
         body.return_value(computation.value);
@@ -342,8 +350,12 @@ tree::Block conditions(const Unit& unit, const ConditionKind& kind,
         parameters.insert(parameters.begin(), {gathered + "&", conditions_name, true});
         return parameters;
     });
+    std::string others;
+    if (!functions.empty() && functions.size() < computations.size())
+        others =
+            kind.word == "termination" ? " The others never hold." : " The others always hold.";
     tree::Block body;
-    if (computations.empty()) {
+    if (functions.empty()) {
         body.push_back({tree::Return{kind.none}});
     } else {
         const bool takes_context = kind.word != "termination";
@@ -355,7 +367,7 @@ tree::Block conditions(const Unit& unit, const ConditionKind& kind,
     }
     tree::Block result = {function(lane_type_of(kind.type), kind.function,
                                    parameters_of(kind.records, all), std::move(body),
-                                   kind.comment)};
+                                   kind.comment + others)};
     append(result, std::move(functions));
     append(result, std::move(parted.parts));
     return result;
@@ -429,37 +441,37 @@ std::string reward_function(const Unit& unit) {
 std::string condition_functions(const Unit& unit) {
     const ir::Program& program = unit.program;
     const tree::Expression none = tree::braces(lane_type_of(ir::Scalar::Int), {word("-1")});
-    tree::Block functions = conditions(unit,
-                                       {"termination",
-                                        "terminal",
-                                        "An episode ends where one of these holds.",
-                                        ir::Scalar::Bool,
-                                        word("false"),
-                                        "Terminations",
-                                        "hold",
-                                        {Storage::State}},
-                                       program.terminations);
+    tree::Block functions =
+        conditions(unit,
+                   {"termination",
+                    "terminal",
+                    "Whether one of the terminations holds, so that the episode ends.",
+                    ir::Scalar::Bool,
+                    word("false"),
+                    "Terminations",
+                    "hold",
+                    {Storage::State}},
+                   program.terminations);
     append(functions, conditions(unit,
                                  {"invariant",
                                   "violates_invariant",
-                                  "Hold in every state that makes sense.",
+                                  "Whether the state breaks one of the invariants.",
                                   ir::Scalar::Bool,
                                   word("false"),
                                   "Invariants",
                                   "violated",
                                   {Storage::State}},
                                  program.invariants));
-    append(functions,
-           conditions(unit,
-                      {"precondition",
-                       "violated_precondition",
-                       "Hold for every action that is allowed: the first that does not, or -1.",
-                       ir::Scalar::Int,
-                       none,
-                       "Preconditions",
-                       "first_violated",
-                       {Storage::State, Storage::Action}},
-                      program.preconditions));
+    append(functions, conditions(unit,
+                                 {"precondition",
+                                  "violated_precondition",
+                                  "The first precondition that the action violates, or -1.",
+                                  ir::Scalar::Int,
+                                  none,
+                                  "Preconditions",
+                                  "first_violated",
+                                  {Storage::State, Storage::Action}},
+                                 program.preconditions));
     return print(functions, level);
 }
 

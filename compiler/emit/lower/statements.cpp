@@ -7,6 +7,8 @@
 #include "ir/visits.hpp"
 #include "support/match.hpp"
 
+#include <rddl/values/few_objects.hpp>
+
 #include <algorithm>
 #include <optional>
 #include <span>
@@ -29,8 +31,6 @@ constexpr std::size_t operator_and_brackets = 4;  // of an operand in a chain
 constexpr std::size_t assignment_width = 3;       // " = "
 // An expression with more calls with lambdas inside is taken to pieces first.
 constexpr std::size_t most_lambda_calls = 64;
-// rddl::for_few_objects takes so many.
-constexpr std::int64_t most_unrolled = 16;
 
 // The table that the only statement of a nest fills.
 ir::BufferId only_target(const ir::Nest& nest) {
@@ -91,7 +91,23 @@ std::optional<Operator> chain_operator(const ir::Node& node) {
     return makes_chains ? std::optional(apply->op) : std::nullopt;
 }
 
-// The wish for the name of a value.
+// The wish for the name of a value that is read from a record: that of the fluent.
+std::optional<std::string> name_in_record(const ir::Program& program, ir::NodeId id) {
+    const ir::Node& node = program[id];
+    if (const auto* apply = std::get_if<ir::Apply>(&node.form)) {
+        if (apply->op != Operator::Not) return std::nullopt;
+        const auto negated = name_in_record(program, apply->operands.front());
+        return negated ? std::optional("not_" + *negated) : std::nullopt;
+    }
+    const auto buffer = ir::buffer_read_by(node);
+    if (!buffer || program[*buffer].storage == ir::Storage::Constant) return std::nullopt;
+    const bool is_value = std::holds_alternative<ir::Load>(node.form) ||
+                          std::holds_alternative<ir::Element>(node.form) ||
+                          std::holds_alternative<ir::Bits>(node.form);
+    return is_value ? std::optional(program[*buffer].name) : std::nullopt;
+}
+
+// The wish for the name of another value.
 std::string_view wish_for(const ir::Node& node) {
     if (const auto* reduce = std::get_if<ir::Reduce>(&node.form)) {
         switch (reduce->op) {
@@ -113,8 +129,7 @@ std::string_view wish_for(const ir::Node& node) {
                 return "best";
         }
     }
-    if (std::holds_alternative<ir::Bits>(node.form) || std::holds_alternative<ir::Union>(node.form))
-        return "bits";
+    if (std::holds_alternative<ir::Union>(node.form)) return "bits";
     const auto* apply = std::get_if<ir::Apply>(&node.form);
     if (apply && apply->op == Operator::CountOnes) return "count";
     if (apply && apply->op >= Operator::BitAnd && apply->op <= Operator::ShiftRight) return "bits";
@@ -132,6 +147,10 @@ std::string_view wish_for(const ir::Node& node) {
             break;
     }
     return "term";
+}
+
+std::string wish_for(const ir::Program& program, ir::NodeId id) {
+    return name_in_record(program, id).value_or(std::string(wish_for(program[id])));
 }
 
 // Whether the statements are visits that one function makes.
@@ -252,7 +271,7 @@ void FunctionBody::over_several_objects(const ir::Loop& loop, bool is_from_start
     tree::append(parameters, numbers);
     tree::Expression lambda{tree::Lambda{std::move(parameters), std::move(body)}};
     const bool is_unrolled = expressions_.looks_at_few_bits() &&
-                             ir::combinations(program(), nest.variables) <= most_unrolled;
+                             ir::combinations(program(), nest.variables) <= rddl::most_few_objects;
     expressions_.leave_nest();
     expressions_.return_to(before);
     if (loop.affected) {
@@ -547,7 +566,7 @@ void FunctionBody::name_value(ir::NodeId id) {
 std::string FunctionBody::declare(ir::NodeId id) {
     // The parts that need names get them first, so that numbers grow from top to bottom.
     prepare_declaration(id);
-    const std::string name = expressions_.claim(wish_for(program()[id]));
+    const std::string name = expressions_.claim(wish_for(program(), id));
     const std::string type = type_in_declaration(id);
     tree::Expression initial = value({type.size() + 1 + name.size() + assignment_width}, id);
     statements_.push_back({tree::Assign{{tree::Declared{type, name}}, std::move(initial)}});
@@ -556,7 +575,7 @@ std::string FunctionBody::declare(ir::NodeId id) {
 
 void FunctionBody::prepare_declaration(ir::NodeId id) {
     const std::string type = expressions_.measured([&] { return type_in_declaration(id); });
-    prepare({type.size() + 1 + wish_for(program()[id]).size() + assignment_width}, id);
+    prepare({type.size() + 1 + wish_for(program(), id).size() + assignment_width}, id);
 }
 
 std::string FunctionBody::type_in_declaration(ir::NodeId id) {

@@ -191,7 +191,7 @@ std::string tables(const Unit& unit, const Unit* around) {
 std::string records(const Unit& unit) {
     std::string text = record(unit, "State", ir::Storage::State) + "\n" +
                        record(unit, "Action", ir::Storage::Action) +
-                       "\n// What the CPFs tell each other within a step.\n" +
+                       "\n// Values that CPFs compute and others read, within a step.\n" +
                        record(unit, "Scratch", ir::Storage::Scratch) + "\n" +
                        record(unit, "Observation", ir::Storage::Observation);
     if (unit.program.policy)

@@ -57,6 +57,9 @@ class MoveTables {
     ir::Program run() && {
         // Bools of actions are tested where expressions read them.
         if (ir::tests_action_bools(program_)) return std::move(program_);
+        for (const ir::Definition& definition : program_.step)
+            ir::for_each_statement<ir::Let>(
+                definition.body, [&](const ir::Let& let) { named_[let.local] = let.value; });
         ir::for_each_loop(program_, [&](ir::Loop& loop, Span span) { change(loop, span); });
         return ir::collect_garbage(std::move(program_));
     }
@@ -65,12 +68,14 @@ class MoveTables {
     void change(ir::Loop& loop, Span span) {
         if (!loop.affected || loop.affected->moves) return;
         const ir::Nest nest = ir::nest_of(loop);
-        const auto& store = *ir::only_statement<ir::Store>(*nest.body);
-        const std::optional<ir::NodeId> draw = ir::only_bernoulli(program_, store.value);
+        std::map<ir::NodeId, ir::NodeId> known;
+        const ir::NodeId value =
+            without_names(ir::only_statement<ir::Store>(*nest.body)->value, known);
+        const std::optional<ir::NodeId> draw = ir::only_bernoulli(program_, value);
         if (!draw || !is_valid(*draw)) return;
         const ir::BufferId few = loop.affected->few;
-        const Stored values{with_draw(store.value, *draw, true),
-                            with_draw(store.value, *draw, false), chance_of(*draw, few)};
+        const Stored values{with_draw(value, *draw, true), with_draw(value, *draw, false),
+                            chance_of(*draw, few)};
         std::vector<ir::BufferId> choices;
         if (!collect_choices(values.if_drawn, few, choices) ||
             !collect_choices(values.if_not, few, choices))
@@ -81,6 +86,16 @@ class MoveTables {
         loop.affected->moves = moves(*loop.affected, nest, values, std::move(choices), span);
         report_["loops that look up where the only true bool goes"] +=
             loop.affected->moves.has_value();
+    }
+
+    // With the values of Lets in place of their names, which may hide bools that choose.
+    ir::NodeId without_names(ir::NodeId value, std::map<ir::NodeId, ir::NodeId>& known) {
+        return ir::replace_in(
+            builder_, value, known, [&](ir::NodeId id) -> std::optional<ir::NodeId> {
+                const auto* local = std::get_if<ir::Local>(&program_[id].form);
+                if (!local || !named_.contains(local->local)) return std::nullopt;
+                return without_names(named_.at(local->local), known);
+            });
     }
 
     bool is_valid(ir::NodeId draw) const {
@@ -209,6 +224,7 @@ class MoveTables {
     ir::Program program_;
     Report& report_;
     ir::Builder builder_;
+    std::map<ir::LocalId, ir::NodeId> named_;  // the values of all Lets of a step
 };
 
 }  // namespace

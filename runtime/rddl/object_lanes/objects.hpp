@@ -12,6 +12,7 @@
 #include <rddl/random/random.hpp>
 #include <rddl/values/bits.hpp>
 #include <rddl/values/context.hpp>
+#include <rddl/values/few_objects.hpp>
 #include <rddl/values/few_words.hpp>
 #include <rddl/values/pack_ops.hpp>
 #include <rddl/values/reductions.hpp>
@@ -343,12 +344,13 @@ RDDL_INLINE void for_each_object(Context<ScalarOf<R>>& context, Body&& body) {
     detail::for_each_of_several<objects_of_loop<count>, count>(context, body);
 }
 
-// The same for at most 16 objects whose bodies look at few bits (rddl/values/few_bits.hpp): in
-// packs, the places of these are known where the loop is unrolled.
+// The same for few objects whose bodies look at few bits (rddl/values/few_bits.hpp): in packs, the
+// places of these are known where the loop is unrolled.
 template <Index count, int n, class R, class Body>
 RDDL_INLINE void for_few_objects(Context<Pack<n, R>>& context, Body&& body) {
+    static_assert(count <= most_few_objects);
 #ifdef __GNUC__
-#pragma GCC unroll 16
+#pragma GCC unroll most_few_objects
 #endif
     for (Index i = 0; i < count; ++i) body(context, OneObject{i});
 }

@@ -177,7 +177,12 @@ constexpr std::int64_t maximum(std::int64_t a, std::int64_t b) {
 template <std::floating_point R>
 constexpr R minimum(R a, R b) {
     if (__builtin_constant_p(a) && !is_zero_or_nan(a)) return a < b ? a : b;
+#ifdef __clang__
+    // clang 14 gives -0.0 for 0.0 and the constant -0.0 if this is written as below.
+    return a <= b || is_nan(a) ? a : b;
+#else
     return b < a || is_nan(b) ? b : a;
+#endif
 }
 template <std::floating_point R>
 constexpr R maximum(R a, R b) {

@@ -5,6 +5,7 @@
 #include "passes/lanes/evaluate_together.hpp"
 #include "passes/lanes/read_places.hpp"
 #include "passes/lanes/visit_affected.hpp"
+#include "passes/sharing/share_subexpressions.hpp"
 #include "texts.hpp"
 
 namespace rddlc {
@@ -27,6 +28,7 @@ ir::Program that_knows_affected(const std::string& cpf) {
     passes::Report report;
     ir::Program program = passes::index_directly(grounded_with_many(problem), report);
     program = passes::read_places(std::move(program), report);
+    program = passes::share_subexpressions(std::move(program), report);
     program = passes::evaluate_together(std::move(program), report);
     program = passes::visit_affected(std::move(program), report);
     EXPECT_EQ(report["loops over the objects that few bools affect"], 1) << cpf;
@@ -62,6 +64,19 @@ TEST(LookUpMoves, TakesBoolsOfTheState) {
         << step_text(program);
     const std::string table = table_text(program, "at-moves[");
     EXPECT_NE(table.find("= {0 21 0 0 1 2 1 1 "), std::string::npos) << table;
+}
+
+TEST(LookUpMoves, FindsBoolsBehindNames) {
+    passes::Report report;
+    const ir::Program program = valid(passes::look_up_moves(
+        that_knows_affected("if (go + 2 * lost + go * lost == 1) "
+                            "then (if (exists_{?p : obj} [NEXT(?p, ?o) ^ at(?p)]) "
+                            "then Bernoulli(P(?o)) else false) "
+                            "else (at(?o) ^ go + 2 * lost + go * lost < 2)"),
+        report));
+    const std::string text = step_text(program);
+    EXPECT_NE(text.find("let "), std::string::npos) << text;
+    EXPECT_NE(text.find(", moves at-moves[action.go, state.lost]\n"), std::string::npos) << text;
 }
 
 TEST(LookUpMoves, LeavesOthers) {
