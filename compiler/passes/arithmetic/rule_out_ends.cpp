@@ -23,7 +23,7 @@ std::vector<bool> nodes_of_step(ir::Program program) {
 }
 
 // The conditions that a termination joins by ||. All are false where it is, also those that could
-// fault: a fault ends the episode, too.
+// fault: a fault also ends the episode.
 std::vector<ir::NodeId> ends(const ir::Program& program) {
     std::vector<ir::NodeId> parts;
     for (const ir::Computation& termination : program.terminations)
