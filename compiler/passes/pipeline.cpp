@@ -34,6 +34,7 @@
 #include "passes/arithmetic/find_ranges.hpp"
 #include "passes/arithmetic/prove_invariants.hpp"
 #include "passes/arithmetic/reduce_strength.hpp"
+#include "passes/arithmetic/rule_out_ends.hpp"
 #include "passes/arithmetic/shorten_invariants.hpp"
 #include "passes/arithmetic/straighten_rows.hpp"
 #include "passes/constants/fold_constant_expressions.hpp"
@@ -151,6 +152,12 @@ constexpr Pass in_order[] = {
      "of two bounds of a number, one that every step keeps is not tested",
      {"prove_invariants"},
      "what is proved needs no bound"},
+    {"rule_out_ends",
+     Phase::Arithmetic,
+     rule_out_ends,
+     "conditions that end an episode do not hold in a step",
+     {"fuse_interm_fluents"},
+     "they may come from interm-fluents; and the passes below write conditions in other ways"},
     {"index_directly",
      Phase::Aggregations,
      index_directly,

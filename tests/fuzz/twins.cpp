@@ -123,7 +123,10 @@ Shown shown(const ir::Interpreter& engine, const Situation& at, Record& scratch,
     const std::byte* state = at.state.data();
     result.violated_precondition =
         engine.violated_precondition(state, at.action.data(), conditions);
-    result.terminal = engine.terminal(state, conditions);
+    Context ends = context_of(seed, at.step);
+    result.terminal = engine.terminal(state, ends);
+    result.is_over = result.terminal || ends.fault;
+    if (ends.fault && !conditions.fault) conditions.fault = ends.fault;
     Context context = context_of(seed, at.step);
     result.reward = engine.step(state, at.action.data(), scratch.data(), result.next.data(),
                                 result.observation.data(), context);
@@ -214,6 +217,8 @@ void expect_step(Comparison& comparison, const Shown& expected, const Shown& fou
     comparison.expect("the first precondition violated", expected.violated_precondition,
                       found.violated_precondition);
     comparison.expect("whether the state is terminal", expected.terminal, found.terminal);
+    comparison.expect("whether the state is over", expected.is_over, found.is_over);
+    if (expected.is_over) return;
     // A state that was rounded may lie on the other side of a bound.
     if (expected.next == found.next) {
         comparison.expect("whether the next state violates an invariant",

@@ -28,6 +28,7 @@ struct Shown {
     int violated_precondition = -1;
     // Conditions of the state, and of the next one.
     bool terminal = false;
+    bool is_over = false;  // terminal or faulty, so that no engine steps from there
     bool next_terminal = false, next_violates_invariant = false;
     rddl::FaultRecord of_step, of_conditions, of_policy;
 };

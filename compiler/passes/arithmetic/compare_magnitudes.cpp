@@ -2,6 +2,8 @@
 
 #include "ir/rewrite.hpp"
 
+#include <cstddef>
+#include <optional>
 #include <utility>
 
 namespace rddlc::passes {
@@ -66,10 +68,34 @@ class Joining {
     Operator op_;
 };
 
+bool is_plain(const ir::Builder& builder, const ir::Computation& condition) {
+    return condition.body.empty() && ir::is_droppable(builder.properties(condition.value));
+}
+
+// Opposite bounds of two invariants become one of the first of them. No invariant from the first to
+// the second may fault, since those behind one that does not hold are not evaluated.
+ir::Program joined_invariants(ir::Program program, Report& report) {
+    ir::Builder builder(program);
+    Joining joining(builder, Operator::And);
+    auto& invariants = program.invariants;
+    for (std::size_t first = 0; first < invariants.size(); ++first) {
+        for (std::size_t other = first; other < invariants.size(); ++other) {
+            if (!is_plain(builder, invariants[other])) break;
+            if (other == first) continue;
+            const auto both = joining.joined(invariants[first].value, invariants[other].value);
+            if (!both) continue;
+            invariants[first].value = *both;
+            invariants[other].value = builder.constant(true);
+            ++report["pairs of bounds joined"];
+        }
+    }
+    return ir::collect_garbage(std::move(program));
+}
+
 }  // namespace
 
 ir::Program compare_magnitudes(ir::Program program, Report& report) {
-    return ir::rewrite(
+    program = ir::rewrite(
         std::move(program),
         [&](ir::Builder& builder, ir::NodeId, const ir::Node& node) -> std::optional<ir::NodeId> {
             const auto* apply = std::get_if<ir::Apply>(&node.form);
@@ -80,6 +106,7 @@ ir::Program compare_magnitudes(ir::Program program, Report& report) {
             if (joined) ++report["pairs of bounds joined"];
             return joined;
         });
+    return joined_invariants(std::move(program), report);
 }
 
 }  // namespace rddlc::passes

@@ -2,6 +2,8 @@
 //
 //     state.x < -2.4 || state.x > 2.4       =>   absolute(state.x) > 2.4
 //     state.x >= -2.4 && state.x <= 2.4     =>   absolute(state.x) <= 2.4
+//
+// The bounds may stand in two invariants, of which the second one becomes true.
 #pragma once
 
 #include "ir/ir.hpp"

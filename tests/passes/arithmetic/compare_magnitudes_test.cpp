@@ -2,6 +2,9 @@
 
 #include "texts.hpp"
 
+#include <cstddef>
+#include <string>
+
 namespace rddlc {
 namespace {
 
@@ -34,6 +37,37 @@ TEST(CompareMagnitudes, LeavesOtherPairs) {
             of_x("if (" + std::string(condition) + ") then 1.0 else x", passes::compare_magnitudes);
         EXPECT_EQ(x.before, x.after);
     }
+}
+
+// The text of the invariants that the pass leaves.
+std::string of_invariants(const std::string& invariants) {
+    const Problem problem{.pvariables =
+                              "x : { state-fluent, real, default = 0.0 };\n"
+                              "n : { state-fluent, int, default = 1 };",
+                          .cpfs = "x' = x;\nn' = n;",
+                          .blocks = "state-invariants { " + invariants + " };"};
+    passes::Report report;
+    const std::string text =
+        ir::print(valid(passes::compare_magnitudes(grounded(problem), report)));
+    std::string left;
+    for (std::size_t at = text.find("\ninvariant "); at != text.npos;) {
+        const std::size_t begin = text.find(" = ", at) + 3;
+        left += text.substr(begin, text.find('\n', begin) - begin) + "; ";
+        at = text.find("\ninvariant ", begin);
+    }
+    return left;
+}
+
+TEST(CompareMagnitudes, JoinsBoundsOfTwoInvariants) {
+    EXPECT_EQ(of_invariants("x >= -2.0; x <= 2.0;"), "absolute(state.x) <= 2.0; true; ");
+    EXPECT_EQ(of_invariants("x >= -2.0; n > 3; x <= 2.0;"),
+              "absolute(state.x) <= 2.0; state.n > 3; true; ");
+    EXPECT_EQ(of_invariants("x >= -2.0; x <= 3.0;"), "state.x >= -2.0; state.x <= 3.0; ");
+}
+
+TEST(CompareMagnitudes, LeavesInvariantsAroundOneThatMayFault) {
+    const std::string text = of_invariants("x >= -2.0; gamma[x] > 1.0; x <= 2.0;");
+    EXPECT_EQ(text.find("absolute"), text.npos) << text;
 }
 
 }  // namespace
