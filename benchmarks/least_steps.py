@@ -43,6 +43,7 @@ KERNELS = {
     "CartPole_Continuous_gym": Kernel("0", "cart_pole", "ContinuousCartPole"),
     "CartPole_Discrete_gym": Kernel("0", "cart_pole", "DiscreteCartPole"),
     "Epidemic": Kernel("0", "epidemic", "Epidemic"),
+    "MarsRover_ippc2023": Kernel("3", "mars_rover", "MarsRover"),
     "MountainCar_Continuous_gym": Kernel("0", "mountain_car", "ContinuousMountainCar"),
     "MountainCar_Discrete_gym": Kernel("0", "mountain_car", "DiscreteMountainCar"),
     "Navigation_Continuous": Kernel("0", "navigation", "Navigation"),

@@ -49,7 +49,7 @@ class Draws {
     template <std::size_t count, std::size_t first = 0>
     RDDL_INLINE std::array<Real, count> normals(std::uint64_t site) const {
         std::array<Real, count> numbers = open_uniforms<count, first>(site);
-        if constexpr (std::is_same_v<Element, double> && count > 1)
+        if constexpr (count > 1)
             rddl::replace_by_normal_quantiles<count>(numbers.data(), count);
         else
             for (Real& number : numbers) number = rddl::normal_quantile(number);

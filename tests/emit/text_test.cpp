@@ -165,6 +165,19 @@ TEST(EmittedText, SaysWhichDrawsAreThoseOfTwoObjects) {
     EXPECT_EQ(count(with_chances(3), "PlaceAmong"), 0u);
 }
 
+TEST(EmittedText, SaysWhereTablesChooseTheObjectsThatDraw) {
+    const auto with_condition = [](const std::string& condition) {
+        std::string text = problem(5);
+        text.replace(text.find("a(o) :"), 0, "v(o) : { state-fluent, real, default = 0.5 };\n");
+        text.replace(text.find("}; reward"), 0,
+                     "v'(?o) = if (" + condition + ") then Normal(0.0, 1.0) else v(?o);\n");
+        return emitted(text);
+    };
+    EXPECT_EQ(count(with_condition("W(?o) > 2.0"), "rddl::PlaceAmongSome<o_count>{"), 1u)
+        << with_condition("W(?o) > 2.0");
+    EXPECT_EQ(count(with_condition("on(?o)"), "rddl::PlaceAmong<o_count>{"), 1u);
+}
+
 // Loops over up to eight objects draw together with what is drawn once; branches do not.
 TEST(EmittedText, MakesTheNumbersOfCertainDrawsTogether) {
     const auto with_objects = [](int count, const std::string& chance_of_c) {

@@ -331,7 +331,10 @@ tree::Expressions Expressions::place_of_draw(const ir::Place& place,
     const bool is_bernoulli = distribution == Distribution::Bernoulli && !several_;
     const auto count = is_normal || is_bernoulli ? objects_among(place) : std::nullopt;
     const bool is_among = count && (is_normal || leaves_few_numbers(count->size));
-    return this->place(place, is_among ? "rddl::PlaceAmong<" + unit_.size_of(*count) + ">" : "");
+    if (!is_among) return this->place(place, "");
+    const std::string type = is_normal && unit_.is_chosen_by_table(place) ? "rddl::PlaceAmongSome<"
+                                                                          : "rddl::PlaceAmong<";
+    return this->place(place, type + unit_.size_of(*count) + ">");
 }
 
 Expression Expressions::place_in_step(const ir::Place& place, const StepDraws::Where& where) {

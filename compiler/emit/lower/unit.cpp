@@ -45,7 +45,8 @@ Unit::Unit(const ir::Program& the_program, const Sources& the_sources,
       tests_action_bools(ir::tests_action_bools(the_program)),
       narrow_bits(has_packs() ? ir::narrow_bits(the_program, properties)
                               : std::vector<bool>(the_program.nodes.size(), false)),
-      lone_series_(series_of_lone_draws()) {
+      lone_series_(series_of_lone_draws()),
+      chosen_series_(series_chosen_by_tables()) {
     for (std::size_t index = 0; index < program.nodes.size(); ++index) {
         const ir::Node& node = program.nodes[index];
         const std::vector<ir::NodeId> operands = ir::operands_of(node);
@@ -76,6 +77,28 @@ std::set<std::uint32_t> Unit::series_of_lone_draws() const {
             [&](const ir::Discrete& discrete) { add(discrete.place); },
             [&](const ir::DiscreteOver& discrete) { add(discrete.place); }, [](const auto&) {});
     return all;
+}
+
+// Operands stand before the nodes that use them.
+std::set<std::uint32_t> Unit::series_chosen_by_tables() const {
+    std::vector<bool> is_chosen(program.nodes.size(), false);
+    std::set<std::uint32_t> all;
+    for (std::size_t index = program.nodes.size(); index-- > 0;) {
+        const ir::Node& node = program.nodes[index];
+        const auto* const select = std::get_if<ir::Select>(&node.form);
+        if (select && select->evaluated != ir::Evaluated::Both &&
+            properties_of(select->condition).uniform)
+            is_chosen[select->then_value.index] = is_chosen[select->else_value.index] = true;
+        if (!is_chosen[index]) continue;
+        for (const ir::NodeId operand : ir::operands_of(node)) is_chosen[operand.index] = true;
+        if (const auto* const sample = std::get_if<ir::Sample>(&node.form))
+            all.insert(program.series_of(sample->place.site).index);
+    }
+    return all;
+}
+
+bool Unit::is_chosen_by_table(const ir::Place& place) const {
+    return chosen_series_.contains(program.series_of(place.site).index);
 }
 
 bool Unit::is_lone(const ir::Place& place) const {

@@ -47,6 +47,9 @@ struct Unit {
 
     // A draw that is made once in a step, not in a loop.
     bool is_lone(const ir::Place& place) const;
+    // Whether tables alone decide, by a branch around it, for which objects of a loop a draw is
+    // made: then its neighbours may well not be made.
+    bool is_chosen_by_table(const ir::Place& place) const;
     // Whether batches are stepped in packs.
     bool has_packs() const;
     // Whether there may be packs whose ints are bytes.
@@ -61,7 +64,10 @@ struct Unit {
   private:
     std::set<std::uint32_t> series_of_lone_draws() const;
 
+    std::set<std::uint32_t> series_chosen_by_tables() const;
+
     std::set<std::uint32_t> lone_series_;
+    std::set<std::uint32_t> chosen_series_;
 };
 
 }  // namespace rddlc::cpp

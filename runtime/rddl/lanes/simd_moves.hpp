@@ -256,6 +256,52 @@ template <class V>
     detail::exchange_all<1>(rows);
 }
 
+#ifdef RDDL_SIMD_AVX512
+namespace detail {
+
+// At most four values at each place, side by side.
+[[gnu::always_inline]] inline __m512d load_halves(const std::byte* low, const std::byte* high,
+                                                  int count) {
+    const auto load = [&](const std::byte* from) __attribute__((always_inline)) {
+        const auto* const values = reinterpret_cast<const double*>(from);
+        if (count >= 4) return _mm256_loadu_pd(values);
+        return _mm256_maskz_loadu_pd(static_cast<__mmask8>((1 << count) - 1), values);
+    };
+    return _mm512_insertf64x4(_mm512_zextpd256_pd512(load(low)), load(high), 1);
+}
+
+}  // namespace detail
+#endif
+
+// Transposes as many rows as a register has lanes, of `count` values of 8 bytes each, at most as
+// many: the columns beyond are zero. AVX-512 makes the first exchange by its loads.
+template <class V>
+[[gnu::always_inline]] inline void load_transposed(const std::byte* rows, std::int64_t row_size,
+                                                   int count, V* columns) {
+    static_assert(sizeof(V{}[0]) == 8);
+#ifdef RDDL_SIMD_AVX512
+    for (int i = 0; i < 4; ++i) {
+        const std::byte *const low = rows + i * row_size, *const high = low + 4 * row_size;
+        columns[i] = reinterpret<V>(detail::load_halves(low, high, count));
+        columns[i + 4] = V{};
+        if (count > 4)
+            columns[i + 4] = reinterpret<V>(detail::load_halves(low + 32, high + 32, count - 4));
+    }
+    detail::exchange_all<2>(columns);
+    detail::exchange_all<1>(columns);
+#else
+    using Value = std::remove_cvref_t<decltype(columns[0][0])>;
+    for (int i = 0; i < lanes; ++i) {
+        const std::byte* const row = rows + i * row_size;
+        if (count == lanes)
+            __builtin_memcpy(&columns[i], row, sizeof columns[i]);
+        else
+            columns[i] = load_some(reinterpret_cast<const Value*>(row), count);
+    }
+    transpose(columns);
+#endif
+}
+
 namespace detail {
 
 template <class V, std::size_t... lane>

@@ -155,7 +155,7 @@ template <class Normal>
     normals.count = 0;
     for (; normals.count < normals.most && place.index < count; place.index += objects_at_once)
         normals.packs[normals.count++] = uniform_at(context, place);
-    Normal::replace(normals.packs, normals.count);
+    Normal::template replace<NormalsOfSeries::most>(normals.packs, normals.count);
 }
 
 }  // namespace detail
@@ -164,7 +164,7 @@ template <class Normal>
 // the median, and these take long. Where most lanes need none, or another series is kept, they are
 // made of these lanes alone.
 template <class Normal, int n, Index count>
-requires(count > objects_at_once && requires { &Normal::template replace<objects_at_once>; })
+requires(count > objects_at_once && ReplacesSeveral<Normal, NormalsOfSeries::Some>)
     RDDL_INLINE Lanes<double, n> standard_at(Context<Objects<n, double>>& context,
                                              PlaceAmong<count> place) {
     if (!context.normals) return Normal::of(uniform_at(context, place));

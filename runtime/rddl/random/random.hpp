@@ -141,32 +141,38 @@ RDDL_INLINE void make_schedule(Context<Pack<n, R>>& context) {
     context.is_scheduled = true;
 }
 
+// The numbers of `count` neighbouring indices from an even one on.
+template <std::uint32_t count, int n, class R>
+RDDL_INLINE void make_numbers(Context<Pack<n, R>>& context, std::uint32_t series,
+                              std::uint32_t first, Lanes<R, n>* numbers) {
+    make_schedule(context);
+    const std::uint64_t third = first / 2;
+    for_each_schedule(
+        context, [&]<class Word>(const philox::Schedule<philox::draw_rounds, Word>& schedule,
+                                 std::size_t i) RDDL_INLINE_LAMBDA {
+            const auto store = [&](const philox::Block<Word>& words, Lanes<R, n>* pair)
+                                   RDDL_INLINE_LAMBDA {
+                                       set_part(pair[0], i, unit_real<R>(words[0], words[1]));
+                                       set_part(pair[1], i, unit_real<R>(words[2], words[3]));
+                                   };
+            philox::Block<Word> words[count / 2];
+            schedule.generate(series, third, words);
+            for (std::size_t k = 0; k < count / 2; ++k) store(words[k], numbers + 2 * k);
+        });
+    if (any(context.draws_medians))
+        for (std::uint32_t k = 0; k < count; ++k)
+            numbers[k] = select(context.draws_medians, Lanes<R, n>{R(median_number)}, numbers[k]);
+}
+
 // Numbers, not a place: what compilers pass through memory is read slowly.
 template <std::uint32_t count, int n, class R>
 [[gnu::noinline]] void refill(Context<Pack<n, R>>& context, std::uint32_t series,
                               std::uint32_t index) {
-    make_schedule(context);
     auto& recent = context.recent[series % recent_series];
     recent.series = series;
     recent.first = index / count * count;
     recent.count = count;
-    const std::uint64_t third = recent.first / 2;
-    for_each_schedule(
-        context, [&]<class Word>(const philox::Schedule<philox::draw_rounds, Word>& schedule,
-                                 std::size_t i) RDDL_INLINE_LAMBDA {
-            const auto store = [&](const philox::Block<Word>& words, Lanes<R, n>* numbers)
-                                   RDDL_INLINE_LAMBDA {
-                                       set_part(numbers[0], i, unit_real<R>(words[0], words[1]));
-                                       set_part(numbers[1], i, unit_real<R>(words[2], words[3]));
-                                   };
-            philox::Block<Word> words[count / 2];
-            schedule.generate(series, third, words);
-            for (std::size_t k = 0; k < count / 2; ++k) store(words[k], recent.numbers + 2 * k);
-        });
-    if (any(context.draws_medians))
-        for (std::uint32_t k = 0; k < count; ++k)
-            recent.numbers[k] =
-                select(context.draws_medians, Lanes<R, n>{R(median_number)}, recent.numbers[k]);
+    make_numbers<count>(context, series, recent.first, recent.numbers);
 }
 
 template <int n, class R>
@@ -338,30 +344,44 @@ RDDL_INLINE R uniform_at(Context<ScalarOf<R>>& context, Among place) {
     return recent.numbers[place.index % 2][place.series % sites_at_once<R>];
 }
 
-// The standard normals of the indices from `first` up to `end`, at most so many that they are kept.
-template <class Normal, int n>
-[[gnu::noinline]] void refill_normals(Context<Pack<n>>& context, std::uint32_t series,
+// Whether several numbers at once become normals sooner.
+template <class Normal, class Real>
+concept ReplacesSeveral = requires(Real* numbers) {
+    Normal::template replace<1>(numbers, std::uint32_t{});
+};
+
+// The standard normals of a loop's indices from `first` up to `end`, at most so many that they are
+// kept.
+template <class Normal, Index count, int n, class R>
+[[gnu::noinline]] void refill_normals(Context<Pack<n, R>>& context, std::uint32_t series,
                                       std::uint32_t first, std::uint32_t end) {
+    constexpr std::uint32_t most =
+        std::min<std::uint32_t>(count, Context<Pack<n, R>>::most_normals);
     auto& recent = context.recent_normals[series % recent_series];
     recent.series = series;
     recent.first = first;
     recent.count = end - first;
-    for (std::uint32_t i = 0; i < recent.count; ++i)
-        recent.numbers[i] = uniform_at(context, Place{series, first + i});
-    Normal::replace(recent.numbers, recent.count);
+    if (recent.count == most && first % 2 == 0)
+        make_numbers<most + most % 2>(context, series, first, recent.numbers);
+    else
+        for (std::uint32_t i = 0; i < recent.count; ++i)
+            recent.numbers[i] = uniform_at(context, PlaceAmong<count>(series, first + i));
+    Normal::template replace<most>(recent.numbers, recent.count);
 }
+// Two floats alone are not computed sooner together.
+template <class R>
+inline constexpr Index least_normals_together = std::is_same_v<R, float> ? 3 : 2;
+
 // A draw of a loop in packs, whose normals are made together with some of its neighbours'.
-template <class Normal, int n, Index count>
-requires(n > 1 && n <= 16 && requires {
-    &Normal::template replace<n>;
-}) RDDL_INLINE Lanes<double, n> standard_at(Context<Pack<n>>& context, PlaceAmong<count> place) {
-    constexpr std::uint32_t most = Context<Pack<n>>::most_numbers;
+template <class Normal, int n, class R, Index count>
+requires(n > 1 && n <= 16 && count >= least_normals_together<R> &&
+         ReplacesSeveral<Normal, Lanes<R, n>>)  //
+    RDDL_INLINE Lanes<R, n> standard_at(Context<Pack<n, R>>& context, PlaceAmong<count> place) {
+    constexpr std::uint32_t most = Context<Pack<n, R>>::most_normals;
     const auto& recent = context.recent_normals[place.series % recent_series];
     if (!recent.has(place)) {
-        if (count == 2 && !context.recent[place.series % recent_series].has(place))
-            refill<2>(context, place.series, place.index);
         const std::uint32_t end = std::min<std::uint32_t>((place.index / most + 1) * most, count);
-        refill_normals<Normal>(context, place.series, place.index, end);
+        refill_normals<Normal, count>(context, place.series, place.index, end);
     }
     return recent.numbers[place.index - recent.first];
 }
@@ -375,6 +395,13 @@ RDDL_INLINE typename L::Real standard_at(Context<L>& context, SomePlace place) {
     if constexpr (L::width == 1 && !is_lone)
         if (!__builtin_constant_p(place.index)) return recent_number<Standard>(context, place);
     return Standard::of(uniform_at(context, place));
+}
+
+// Doubles share registers with the tails of neighbours, wanted or not.
+template <class Standard, class L, Index count>
+requires(std::same_as<typename L::Element, double>) RDDL_INLINE typename L::Real
+    standard_at(Context<L>& context, PlaceAmongSome<count> place) {
+    return standard_at<Standard>(context, PlaceAmong<count>(place));
 }
 
 // The part that all draws of a step of one environment share, for loops that draw in registers.

@@ -333,15 +333,8 @@ RDDL_INLINE void read_columns(const std::byte* rows, std::int64_t row_size, std:
     Lanes<Value, T::width> columns[simd::lanes];
     for (int p = 0; p < columns[0].part_count; ++p) {
         simd::Vector<Value> square[simd::lanes];
-        for (int i = 0; i < simd::lanes; ++i) {
-            const std::byte* const row = rows + (p * simd::lanes + i) * row_size;
-            if (count == simd::lanes)
-                __builtin_memcpy(&square[i], row, sizeof square[i]);
-            else
-                square[i] =
-                    simd::load_some(reinterpret_cast<const Value*>(row), static_cast<int>(count));
-        }
-        simd::transpose(square);
+        simd::load_transposed(rows + p * simd::lanes * row_size, row_size, static_cast<int>(count),
+                              square);
         for (int i = 0; i < simd::lanes; ++i) columns[i].part[p] = square[i];
     }
     for (int i = 0; i < count; ++i) values[i] = from_records<T>(columns[i]);
@@ -373,6 +366,9 @@ T* values_in(std::byte* block, const Column& column) {
 }
 
 #ifdef RDDL_SIMD_AVX512
+// Two squares of words.
+inline constexpr std::int64_t most_short_words = 2 * simd::lanes;
+
 // Whether records are so short that each is read once, whatever lies in it. Those of bools alone
 // have quicker ways (bool_rows.hpp), and so have those of one column.
 template <std::size_t count>
@@ -382,7 +378,8 @@ RDDL_INLINE bool are_short(const KnownColumns<count>& columns) {
     for_each_column(columns, [&](const Column& column) RDDL_INLINE_LAMBDA {
         (column.scalar == RDDL_BOOL ? bools : numbers) += column.count;
     });
-    return count > 1 && numbers > 0 && bools <= most_bools && columns.row_size <= 8 * simd::lanes;
+    return count > 1 && numbers > 0 && bools <= most_bools &&
+           columns.row_size <= 8 * most_short_words;
 }
 inline bool are_short(const Columns&) {
     return false;
@@ -391,9 +388,11 @@ inline bool are_short(const Columns&) {
 template <class L, class List>
 RDDL_INLINE void read_short_records(L, const ColumnTable<List>& columns, const std::byte* rows,
                                     std::byte* block) {
-    constexpr int n = L::width;
-    Lanes<std::uint64_t, n> words[simd::lanes];
-    read_columns(rows, columns.row_size, columns.row_size / 8, words);
+    Lanes<std::uint64_t, L::width> words[most_short_words];
+    const std::int64_t word_count = columns.row_size / 8;
+    for (std::int64_t k = 0; k < word_count; k += simd::lanes)
+        read_columns(rows + 8 * k, columns.row_size,
+                     std::min<std::int64_t>(simd::lanes, word_count - k), words + k);
     for_each_column(columns, [&](const Column& column) RDDL_INLINE_LAMBDA {
         with_type<L>(column.scalar, [&]<class T>() RDDL_INLINE_LAMBDA {
             T* const values = values_in<T>(block, column);
@@ -401,10 +400,9 @@ RDDL_INLINE void read_short_records(L, const ColumnTable<List>& columns, const s
             for (std::int64_t k = 0; k < column.count; ++k) {
                 if constexpr (std::is_same_v<T, typename L::Bool>) {
                     const std::int64_t byte = column.row + k;
-                    values[k] =
-                        ints_of(words[byte / 8] &
-                                Lanes<std::uint64_t, n>(std::uint64_t{0xFF} << byte % 8 * 8)) !=
-                        std::int64_t{0};
+                    values[k] = ints_of(words[byte / 8] & Lanes<std::uint64_t, L::width>(
+                                                              std::uint64_t{0xFF}
+                                                              << byte % 8 * 8)) != std::int64_t{0};
                 } else if constexpr (std::is_same_v<typename T::Element, float>) {
                     values[k] = to_float(real_of_bits(words[first + k]));
                 } else if constexpr (std::is_same_v<typename T::Element, std::int8_t>) {

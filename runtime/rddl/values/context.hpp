@@ -45,6 +45,12 @@ struct PlaceAmong : Place {
     using Place::Place;
 };
 
+// The same where a table chooses the objects that draw: normal floats are then made for each alone.
+template <Index count>
+struct PlaceAmongSome : PlaceAmong<count> {
+    using PlaceAmong<count>::PlaceAmong;
+};
+
 // The key of an episode's random stream (random.hpp).
 struct StreamKey {
     std::uint32_t low = 0;
@@ -154,17 +160,20 @@ struct Context<Pack<n, R>> {
 
     // The recent numbers of one series and step, and the indices from `first` on.
     static constexpr std::uint32_t most_numbers = 4;
+    template <std::uint32_t most>
     struct Recent {
         std::uint32_t series = no_series;
         std::uint32_t first, count;
-        Lanes<R, n> numbers[most_numbers];
+        Lanes<R, n> numbers[most];
 
         RDDL_INLINE bool has(Place place) const {
             return series == place.series && place.index - first < count;
         }
     };
-    std::array<Recent, recent_series> recent;
-    std::array<Recent, recent_series> recent_normals;  // standard ones
+    std::array<Recent<most_numbers>, recent_series> recent;
+    // Standard ones. Floats keep more of them, so that fewer are computed alone.
+    static constexpr std::uint32_t most_normals = std::is_same_v<R, float> ? 8 : most_numbers;
+    std::array<Recent<most_normals>, recent_series> recent_normals;
 
     // The schedule of all draws of the step, where registers have room for that of all lanes; the
     // first draw makes it.

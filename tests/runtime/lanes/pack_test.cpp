@@ -154,8 +154,30 @@ TEST(Packs, FindNormalQuantilesAsScalarsDo) {
         }
 }
 
+// Packs of floats whose quantiles are computed in turns: in the middle, in the tails that uniform
+// numbers reach, and beyond.
+TEST(Packs, FindNormalQuantilesOfFloatsInTurns) {
+    const std::vector<float> some = {0.5f,  0.3f,           0.9f,      0.01f,
+                                     1e-5f, 1.0f - 0x1p-24f, 0x1p-24f, 1e-9f};
+    std::mt19937_64 random(13);
+    constexpr std::uint32_t most = 7;
+    for (int repetition = 0; repetition < 50; ++repetition)
+        for (std::uint32_t count = 1; count <= most; ++count) {
+            std::array<Lanes<float, width>, most> packs;
+            for (Lanes<float, width>& pack : packs)
+                for (int lane = 0; lane < width; ++lane)
+                    pack.set(lane, some[random() % (repetition % 8 + 1)]);
+            const auto numbers = packs;
+            replace_by_normal_quantiles<most>(packs.data(), count);
+            for (std::uint32_t i = 0; i < count; ++i)
+                for (int lane = 0; lane < width; ++lane)
+                    ASSERT_EQ(packs[i][lane], normal_quantile(numbers[i][lane]));
+        }
+}
+
 // A loop's normals in packs are those that each would be alone, in whichever order they are drawn.
-TEST(Packs, DrawNormalsOfNeighboursTogether) {
+template <class R>
+void expect_normals_of_neighbours() {
     const auto context = [] {
         std::array<std::uint64_t, width> low, high;
         for (std::size_t lane = 0; lane < width; ++lane) {
@@ -163,9 +185,9 @@ TEST(Packs, DrawNormalsOfNeighboursTogether) {
             low[lane] = key.low;
             high[lane] = key.high;
         }
-        using Word = Pack<width>::Word;
-        return Context<Pack<width>>::of(Word::load(low.data()), Word::load(high.data()),
-                                        Word{std::uint64_t{3}}, true);
+        using Word = typename Pack<width, R>::Word;
+        return Context<Pack<width, R>>::of(Word::load(low.data()), Word::load(high.data()),
+                                           Word{std::uint64_t{3}}, true);
     };
     const auto expect_same = [&]<Index count>() {
         for (const Index first : {0, 1, 3, 4}) {
@@ -188,10 +210,15 @@ TEST(Packs, DrawNormalsOfNeighboursTogether) {
                 }
         }
     };
-    expect_same.operator()<2>();
-    expect_same.operator()<3>();
-    expect_same.operator()<6>();
-    expect_same.operator()<9>();
+    expect_same.template operator()<2>();
+    expect_same.template operator()<3>();
+    expect_same.template operator()<5>();
+    expect_same.template operator()<6>();
+    expect_same.template operator()<9>();
+}
+TEST(Packs, DrawNormalsOfNeighboursTogether) {
+    expect_normals_of_neighbours<double>();
+    expect_normals_of_neighbours<float>();
 }
 
 // A bool stands for 0 or 1, on both sides.

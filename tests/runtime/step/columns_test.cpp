@@ -108,6 +108,61 @@ TYPED_TEST(ColumnsOf, ReadAndWriteWholeAndOtherBlocks) {
     }
 }
 
+// Records whose words are read at once, since they have few bools.
+struct ShortRow {
+    std::array<double, 9> reals;
+    std::array<bool, 3> bools;
+    std::array<std::int64_t, 2> ints;
+    bool last;
+};
+template <class L>
+struct ShortBlock {
+    std::array<typename L::Real, 9> reals;
+    std::array<typename L::Bool, 3> bools;
+    std::array<typename L::Int, 2> ints;
+    typename L::Bool last;
+};
+constexpr rddl_fluent short_fluents[] = {
+    action("reals", RDDL_REAL, 9, offsetof(ShortRow, reals)),
+    action("bools", RDDL_BOOL, 3, offsetof(ShortRow, bools)),
+    action("ints", RDDL_INT, 2, offsetof(ShortRow, ints)),
+    action("last", RDDL_BOOL, 1, offsetof(ShortRow, last))};
+constexpr rddl_problem short_problem = [] {
+    rddl_problem described{};
+    described.fluents = short_fluents;
+    described.fluent_count = std::size(short_fluents);
+    described.action_size = sizeof(ShortRow);
+    return described;
+}();
+
+TYPED_TEST(ColumnsOf, ReadRecordsOfSomeWords) {
+    using L = TypeParam;
+    constexpr auto columns =
+        known_columns<L, short_problem, RDDL_ACTION>(short_problem.action_size);
+    ASSERT_EQ(columns.block_size, static_cast<std::int64_t>(sizeof(ShortBlock<L>)));
+    std::mt19937_64 random(23);
+    std::vector<ShortRow> rows(static_cast<std::size_t>(L::width));
+    for (ShortRow& row : rows) {
+        for (double& value : row.reals) value = static_cast<double>(random() % 1000) / 8;
+        for (bool& value : row.bools) value = random() % 2 == 0;
+        for (std::int64_t& value : row.ints) value = static_cast<std::int64_t>(random());
+        row.last = random() % 2 == 0;
+    }
+    ShortBlock<L> block;
+    read_records(L{}, columns, reinterpret_cast<const std::byte*>(rows.data()), L::width,
+                 reinterpret_cast<std::byte*>(&block));
+    for (int lane = 0; lane < L::width; ++lane) {
+        const ShortRow& row = rows[static_cast<std::size_t>(lane)];
+        for (std::size_t k = 0; k < row.reals.size(); ++k)
+            ASSERT_EQ(get_lane(block.reals[k], lane), row.reals[k]) << k << " of " << lane;
+        for (std::size_t k = 0; k < row.bools.size(); ++k)
+            ASSERT_EQ(get_lane(block.bools[k], lane), row.bools[k]) << k << " of " << lane;
+        for (std::size_t k = 0; k < row.ints.size(); ++k)
+            ASSERT_EQ(get_lane(block.ints[k], lane), row.ints[k]) << k << " of " << lane;
+        ASSERT_EQ(get_lane(block.last, lane), row.last) << lane;
+    }
+}
+
 // A constant of which GCC 12 makes a wrong copy by itself, with AVX-512.
 constexpr std::array<std::int64_t, 7> ones_before_zeros = {1, 1, 0, 1, 1, 0, 0};
 

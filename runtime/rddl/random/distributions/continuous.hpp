@@ -22,14 +22,14 @@ struct StandardNormal {
     static Real of(const Real& number) {
         return normal_quantile(open_unit_real(number));
     }
-    // Several uniform numbers become normals.
-    template <int n>
-    static void replace(Lanes<double, n>* numbers, std::uint32_t count) {
+    // Several uniform numbers become normals, `most` at most.
+    template <std::uint32_t most, class R, int n>
+    static void replace(Lanes<R, n>* numbers, std::uint32_t count) {
         for (std::uint32_t i = 0; i < count; ++i) numbers[i] = open_unit_real(numbers[i]);
         if (count == 1)
             numbers[0] = normal_quantile(numbers[0]);
         else
-            replace_by_normal_quantiles<Context<Pack<n>>::most_numbers>(numbers, count);
+            replace_by_normal_quantiles<most>(numbers, count);
     }
 };
 

@@ -154,7 +154,7 @@ RDDL_ALWAYS_INLINE void replace_by_tails(double* numbers) {
 
 // Replaces packs of p in (0, 1), `most` at most. Their lanes that are far from the median share
 // registers, since the tail takes much longer than the centre.
-template <int most, int n>
+template <std::uint32_t most, int n>
 [[gnu::noinline]] void replace_by_normal_quantiles(Lanes<double, n>* packs, std::uint32_t count) {
     constexpr int part_width = simd::lanes_of<double>;
     double far[most * n + 16];
@@ -199,23 +199,63 @@ inline constexpr float quantile_tail_coefficients[] = {
     -0.0103854388f, 0.00380171859f, 0.000281551183f, -0.000557466527f,
 };
 
+// Replaces so many p in (0, 1), in turns: the processor computes others while it waits for one.
+// Uniform floats are at least 2^-24 away from 0 and 1, so w is at most 15.3.
+template <std::uint32_t count, class R>
+RDDL_INLINE void replace_by_quantiles(R* numbers) {
+    R q[count], minus_w[count], quantiles[count];
+    for (std::uint32_t i = 0; i < count; ++i) {
+        const R p = numbers[i];
+        q[i] = p - 0.5f;
+        // This is no logarithm of a subnormal number, but less than -16 there all the same.
+        minus_w[i] = ln_of_normal(4.0f * p * (1.0f - p), R{127.0f});
+    }
+    const auto in_tail = [&](std::uint32_t i) RDDL_INLINE_LAMBDA { return minus_w[i] < -5.0f; };
+    auto in_some_tail = in_tail(0);  // one of 300
+    for (std::uint32_t i = 0; i < count; ++i) {
+        in_some_tail = in_some_tail || in_tail(i);
+        quantiles[i] = q[i] * polynomial(quantile_coefficients, -2.5f - minus_w[i]);
+    }
+    for (std::uint32_t i = 0; any(in_some_tail) && i < count; ++i) {
+        if (count > 1 && !any(in_tail(i))) continue;
+        const R root = sqrt(-minus_w[i]);
+        const R tail = q[i] * polynomial(quantile_tail_coefficients, root - 3.0f);
+        quantiles[i] = select(in_tail(i), tail, quantiles[i]);
+        const auto far = minus_w[i] < -16.0f;
+        if (any(far))
+            quantiles[i] =
+                select(far, to_float(normal_quantile(to_double(numbers[i]))), quantiles[i]);
+    }
+    for (std::uint32_t i = 0; i < count; ++i) numbers[i] = quantiles[i];
+}
+
+// So many registers are computed in turns, of `most`: there is room for five, and the last ones
+// should not be alone.
+constexpr std::uint32_t quantiles_in_turns(std::uint32_t most) {
+    constexpr std::uint32_t room = 5;
+    const std::uint32_t groups = (most + room - 1) / room;
+    return (most + groups - 1) / groups;
+}
+
 }  // namespace detail::single
 
-// p in (0, 1). Uniform floats are at least 2^-24 away from 0 and 1, so w is at most 15.3.
+// p in (0, 1).
 template <FloatLanes R>
 R normal_quantile(R p) {
-    const R q = p - 0.5f;
-    // This is no logarithm of a subnormal number, but less than -16 there all the same.
-    const R w = -detail::single::ln_of_normal(4.0f * p * (1.0f - p), R{127.0f});
-    const R quantile = q * detail::polynomial(detail::single::quantile_coefficients, w - 2.5f);
-    const auto in_tail = w > 5.0f;  // one of 300
-    if (!any(in_tail)) return quantile;
-    const R root = sqrt(w);
-    const R tail = q * detail::polynomial(detail::single::quantile_tail_coefficients, root - 3.0f);
-    const R result = select(in_tail, tail, quantile);
-    const auto far = w > 16.0f;
-    if (!any(far)) return result;
-    return select(far, to_float(normal_quantile(to_double(p))), result);
+    detail::single::replace_by_quantiles<1>(&p);
+    return p;
+}
+
+// Replaces packs of p in (0, 1), `most` at most.
+template <std::uint32_t most, int n>
+[[gnu::noinline]] void replace_by_normal_quantiles(Lanes<float, n>* packs, std::uint32_t count) {
+    constexpr bool are_registers = Lanes<float, n>::part_count == 1;
+    constexpr std::uint32_t in_turns =
+        are_registers ? detail::single::quantiles_in_turns(most) : 1;
+    std::uint32_t i = 0;
+    for (; i + in_turns <= count; i += in_turns)
+        detail::single::replace_by_quantiles<in_turns>(packs + i);
+    for (; i < count; ++i) packs[i] = normal_quantile(packs[i]);
 }
 
 }  // namespace rddl

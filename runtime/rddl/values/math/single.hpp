@@ -56,8 +56,7 @@ template <class R>
 RDDL_ALWAYS_INLINE R ln_of_normal(R a, R bias) {
     constexpr std::uint32_t least_significand = bits_of(0.70710678f);
     const auto bits = bits_of(a) + (bits_of(1.0f) - least_significand);
-    const R biased_exponent = real_of_bits((bits >> 23) | bits_of(0x1p23f)) - 0x1p23f;
-    const R exponent = biased_exponent - bias;
+    const R exponent = real_of_bits((bits >> 23) | bits_of(0x1p23f)) - (0x1p23f + bias);
     const R f = real_of_bits((bits & std::uint32_t{0x007F'FFFF}) + least_significand) - 1.0f;
     const R square = f * f;
     const R small = f * square * polynomial(ln_coefficients, f) + exponent * ln_2_low;
