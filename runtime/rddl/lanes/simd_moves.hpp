@@ -36,7 +36,7 @@ inline constexpr int most_in_pairs = 4;
     if (count > 2) second = _mm_load_sd(from + 2);
     if (count > 3) second = _mm_loadh_pd(second, from + 3);
     const __m256d both = _mm256_insertf128_pd(_mm256_zextpd128_pd256(first), second, 1);
-    return reinterpret<Reals>(_mm512_zextpd256_pd512(both));
+    return reinterpret<Reals>(_mm512_maskz_insertf64x4(0xFF, __m512d{}, both, 0));
 #else
     return load_some(from, count);
 #endif
@@ -58,7 +58,7 @@ template <class T>
 // has just written waits.
 [[gnu::always_inline]] inline void store_one_by_one(double* to, Reals values, int count) {
 #ifdef RDDL_SIMD_AVX512
-    const __m256d both = _mm512_castpd512_pd256(values);
+    const __m256d both = _mm512_maskz_extractf64x4_pd(0xF, values, 0);
     const __m128d first = _mm256_castpd256_pd128(both), second = _mm256_extractf128_pd(both, 1);
     _mm_store_sd(to, first);
     if (count > 1) _mm_storeh_pd(to + 1, first);
@@ -267,7 +267,8 @@ namespace detail {
         if (count >= 4) return _mm256_loadu_pd(values);
         return _mm256_maskz_loadu_pd(static_cast<__mmask8>((1 << count) - 1), values);
     };
-    return _mm512_insertf64x4(_mm512_zextpd256_pd512(load(low)), load(high), 1);
+    return _mm512_maskz_insertf64x4(0xFF, _mm512_maskz_insertf64x4(0xFF, __m512d{}, load(low), 0),
+                                    load(high), 1);
 }
 
 }  // namespace detail
