@@ -1,5 +1,5 @@
-"""Whoever builds the target `rddlc_installed`, as scripts/quickstart.sh does, can install: all that is built and
-installed is part of it.
+"""The target `rddlc_installed`, which scripts/quickstart.sh builds, makes all that `cmake --install` needs: each thing
+that is built and installed is part of it.
 
     check_installed.py BUILD_FOLDER
 """

@@ -59,6 +59,11 @@ requires std::invocable<Then> &&(sizeof...(Rest) >= 2)  //
 constexpr std::int64_t to_int(bool a) {
     return a ? 1 : 0;
 }
+// As an int of this type: packs may have others (pack_ops.hpp).
+template <class Int>
+constexpr Int to_int(bool a) {
+    return a ? 1 : 0;
+}
 constexpr double to_real(bool a) {
     return a ? 1.0 : 0.0;
 }
@@ -73,10 +78,6 @@ constexpr float to_float(std::int64_t a) {
 }
 
 // Truncates; nan and what int cannot hold give the least int, as the conversion of x86 does.
-template <class Int>
-constexpr Int to_int(bool a) {
-    return a ? 1 : 0;
-}
 constexpr std::int64_t truncate_to_int(double a) {
 #if defined(__SSE2__) && defined(__x86_64__)
     // g++ takes the greatest int for a number too great that it knows, not what the processor
