@@ -19,9 +19,15 @@ def asked(tool: str) -> set[Path]:
     return {(build / line.strip()).resolve() for line in text.splitlines()}
 
 
+def install_scripts(script: Path) -> list[Path]:
+    """A script of `cmake --install` and those that it includes. Other build folders may lie in this one."""
+    below = re.findall(r'include\("([^"]+/cmake_install\.cmake)"\)', script.read_text())
+    return [script] + [found for path in below for found in install_scripts(Path(path))]
+
+
 built = asked("query") | asked("inputs")
 installed = set()
-for script in build.rglob("cmake_install.cmake"):
+for script in install_scripts(build / "cmake_install.cmake"):
     for component in script.read_text().split("if(CMAKE_INSTALL_COMPONENT ")[1:]:
         if "OR NOT CMAKE_INSTALL_COMPONENT)" not in component.splitlines()[0]:
             continue  # a component for those who name it
