@@ -6,6 +6,7 @@
     .venv/bin/python benchmarks/compare_jax.py --require       and fail below the limits
     .venv/bin/python benchmarks/compare_jax.py --write         and docs/benchmarks.md
     .venv/bin/python benchmarks/compare_jax.py --write Epidemic    and only its row there
+    .venv/bin/python benchmarks/compare_jax.py --turns 3       the median of three measurements of each
     .venv/bin/python benchmarks/compare_jax.py --threads 2     with so many instead of one
 
 Measures the instance of median size of each problem of rddlrepository; those that pyRDDLGym-jax does not run are
@@ -20,14 +21,15 @@ simulators link is compiled before, as pyRDDLGym-jax is installed before.
 Measurements are kept in a file (--results), so that an interrupted run continues where it was; --fresh
 measures everything again. A problem that takes longer than --limit is given up.
 
-Limits: geometric means of the ratios of at least 10, both in 32 bits; and a first step that is sooner.
+Limits, of each problem: a ratio of at least 10, both in 32 bits; and a first step that is sooner.
 """
 
 import argparse
 import subprocess
 import sys
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
+from statistics import median
 
 from bench import Results, bench, geometric_mean
 from document import ROOT, machine_text, markdown_table, parts_around, write_section
@@ -84,6 +86,23 @@ def best_rate(measurements: list[dict], threads: int) -> float:
 
 
 def compare(case: Case, options: argparse.Namespace) -> Comparison | NotRun:
+    """The median of each figure, of `--turns` measurements: rates of jax differ by a tenth from run to run."""
+    turns = []
+    for _ in range(options.turns):
+        figures = compare_once(case, options)
+        if isinstance(figures, NotRun):
+            return figures
+        turns.append(figures)
+    return median_of(turns)
+
+
+def median_of(turns: list[Comparison]) -> Comparison:
+    measured = ("jax", "doubles", "floats", "our_first_step", "jax_first_step", "jax_import")
+    values = {name: [getattr(turn, name) for turn in turns] for name in measured}
+    return replace(turns[0], **{name: median(values[name]) for name in measured if values[name][0] is not None})
+
+
+def compare_once(case: Case, options: argparse.Namespace) -> Comparison | NotRun:
     common = [case.domain_path, case.instance_path, "--batch", OUR_BATCHES]
     common += ["--seconds", options.seconds, "--threads", options.threads]
     peer_options = ["--against=jax", "--python", options.jax_python]
@@ -172,8 +191,8 @@ def summary_rows(comparisons: list[Comparison]) -> list[tuple[str, ...]]:
 
 def shortfalls(comparisons: list[Comparison]) -> list[str]:
     """Returns the figures below their limit, a line each."""
-    mean = geometric_mean([c.floats_ratio for c in comparisons if c.floats_ratio])
-    lines = [f"floats: the geometric mean {mean:.1f} is below {LEAST_RATIO:g}"] if mean < LEAST_RATIO else []
+    slow = [c for c in comparisons if c.floats_ratio and c.floats_ratio < LEAST_RATIO]
+    lines = [f"{c.label}: the ratio in floats, {c.floats_ratio:.1f}, is below {LEAST_RATIO:g}" for c in slow]
     return lines + [f"{c.label}: the first step is not sooner" for c in comparisons if not c.is_sooner]
 
 
@@ -223,6 +242,7 @@ def parse_arguments() -> argparse.Namespace:
     default = ROOT / ".jaxvenv/bin/python"
     parser.add_argument("--jax-python", type=Path, default=default, help="Python with pyRDDLGym-jax")
     parser.add_argument("--seconds", type=float, default=0.5, help="of each measurement")
+    parser.add_argument("--turns", type=int, default=1, help="measurements of each problem, of which the median counts")
     parser.add_argument("--limit", type=float, default=240, help="seconds for a problem, until it is given up")
     parser.add_argument("--threads", type=int, default=1, help="of both")
     default = ROOT / "build/benchmarks/compare_jax.jsonl"
@@ -233,6 +253,8 @@ def parse_arguments() -> argparse.Namespace:
     options = parser.parse_args()
     if options.write and options.threads != 1:
         parser.error("--write is for one thread")
+    if options.turns < 1:
+        parser.error("--turns must be at least 1")
     return options
 
 

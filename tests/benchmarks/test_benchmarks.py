@@ -98,7 +98,7 @@ class CompareJax(unittest.TestCase):
         late_and_slow = compare_jax.shortfalls([self.comparison(90, 1.6)])
         self.assertEqual(
             late_and_slow,
-            ["floats: the geometric mean 9.0 is below 10", "p 1: the first step is not sooner"],
+            ["p 1: the ratio in floats, 9.0, is below 10", "p 1: the first step is not sooner"],
         )
 
     def test_summary(self):
@@ -117,6 +117,11 @@ class CompareJax(unittest.TestCase):
         self.assertEqual(compare_jax.row_of(without)[:6], ("p 1", "10", "50", "5.0", "-", "-"))
         rows = compare_jax.summary_rows([without, self.comparison(400, 1.0)])
         self.assertEqual(rows[1], ("floats", "40.0", "1 of 1", "40.0", "p 1"))
+
+    def test_median_of_turns(self):
+        turns = [self.comparison(floats, first_step) for floats, first_step in ((70, 3.0), (90, 1.0), (80, 9.0))]
+        self.assertEqual(compare_jax.median_of(turns), self.comparison(80, 3.0))
+        self.assertIsNone(compare_jax.median_of([self.comparison(None, 1.0)]).floats)
 
     def test_takes_the_best_batch_with_these_threads(self):
         measurements = [
