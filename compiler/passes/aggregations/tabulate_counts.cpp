@@ -60,11 +60,15 @@ class CountTabulation {
   private:
     // --------------------------------------------------------------------------- finding
 
-    // For the users of a node: a count may itself be an expression of a count.
+    // For the users of a node. A choice of ints by a count is no count of its own.
     Dependence dependence_of(ir::NodeId id) const {
         const ir::Properties& properties = builder_.properties(id);
-        if (!properties.uniform && is_count(id)) return {.count = id};
-        return dependence_on_operands(id);
+        if (properties.uniform || !is_count(id)) return dependence_on_operands(id);
+        if (std::holds_alternative<ir::Select>(program_[id].form)) {
+            const Dependence chosen = dependence_on_operands(id);
+            if (chosen.only_count) return chosen;
+        }
+        return {.count = id};
     }
     Dependence dependence_on_operands(ir::NodeId id) const {
         const ir::Properties& properties = builder_.properties(id);

@@ -9,6 +9,10 @@
 //
 //     burning-by-count[burning-kind[x], sum[e in row[x]](int(state.burning[e]))]
 //
+// So does a chain of choices by one int, as domains write that have enumerations:
+//
+//     select(state.phase == 0, 1, select(state.phase == 1, 2, ...)) => phase-by-phase[state.phase]
+//
 // Reals and ints only, and only where no entry faults and enough work is saved for the size of the
 // table.
 #pragma once

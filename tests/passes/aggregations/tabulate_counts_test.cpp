@@ -32,6 +32,19 @@ TEST(TabulateCounts, ReplacesWhatDependsOnACount) {
     }
 }
 
+TEST(TabulateCounts, LooksUpWhatTheChainOfAnEnumerationChooses) {
+    const std::string count = "(sum_{?o : obj} p(?o))";
+    const auto chain = [&](const std::string& last) {
+        return "if (" + count + " == 0) then 7 else if (" + count + " == 1) then 2 else if (" +
+               count + " == 2) then 5 else " + last;
+    };
+    EXPECT_EQ(tabulated(chain("4")), "x-by-count[sum[o in obj](int(state.p[o]))]");
+    // Another one chooses as well: what depends on both has no row.
+    EXPECT_EQ(
+        tabulated(chain("if ([sum_{?o : obj} (v(?o) > 2)] == 1) then 1 else 4")).find("x-by-count"),
+        std::string::npos);
+}
+
 TEST(TabulateCounts, HasARowForEachObject) {
     EXPECT_EQ(tabulated("sum_{?u : obj} [v(?u) * exp[W(?u) * sum_{?o : obj} p(?o)]]"),
               "sum[u in obj](state.v[u] * x-by-count[u, sum[o in obj](int(state.p[o]))])");
