@@ -63,7 +63,10 @@ class BitCounting {
         if (!nest) return std::nullopt;
         places_.reset();
         variables_ = builder_.properties(id).free_variables;
-        if (!find_places(*nest) || !is_worthwhile(*nest)) return test_of_parts(id);
+        if (!find_places(*nest) || !is_worthwhile(*nest)) {
+            const auto rest = test_of_rest(id);
+            return rest ? rest : test_of_parts(id);
+        }
         ++report_["aggregations that count bits"];
         return nest->op == Reduction::Sum ? sum(*nest) : tested(*nest);
     }
@@ -108,6 +111,24 @@ class BitCounting {
             tests.push_back(*test);
         }
         return builder_.apply(connective, std::move(tests));
+    }
+
+    // forall(a | b) = a | forall(b), and exists(a & b) = a & exists(b), if a is the same for all
+    // objects and b, of one table, is counted by bits. Rows of two tables have a test of their own
+    // (ir/common_rows.hpp).
+    std::optional<ir::NodeId> test_of_rest(ir::NodeId id) {
+        const Levels nest = levels_of(id);
+        const Reduction op = nest.reduces.front().op;
+        if (op == Reduction::Sum || builder_.properties(nest.term).may_fault) return std::nullopt;
+        const Operator connective = op == Reduction::ForAll ? Operator::Or : Operator::And;
+        std::vector<ir::NodeId> same, rest;
+        for (const ir::NodeId part : ir::parts_of(program_, nest.term, connective))
+            (is_same_in(nest, part) ? same : rest).push_back(part);
+        if (same.empty() || rest.size() != 1) return std::nullopt;
+        const auto test = counted(aggregated(nest, rest.front()));
+        if (!test) return std::nullopt;
+        same.push_back(*test);
+        return ir::joined(builder_, connective, same);
     }
 
     bool is_same_in(const Levels& nest, ir::NodeId part) const {

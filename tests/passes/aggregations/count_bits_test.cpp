@@ -85,8 +85,17 @@ TEST(CountBits, TestsPartsByThemselves) {
     EXPECT_EQ(counted_in_bits("exists_{?o : obj, ?u : obj} [s(t, t) | s(?o, ?u) ^ ~s(?o, ?u)]"),
               "int(state.s[state.t, state.t] || "
               "bit_and(bits(state.s, 0), bit_xor(bits(state.s, 0), -1)) != 0)");
-    EXPECT_EQ(counted_in_bits("exists_{?o : obj, ?u : obj} [s(?o, ?u) ^ x > 2]").find("bits("),
-              std::string::npos);
+}
+
+TEST(CountBits, TestsWhatIsTheSameForAllObjectsByItself) {
+    EXPECT_EQ(counted_in_bits("exists_{?o : obj, ?u : obj} [s(?o, ?u) ^ x > 2]"),
+              "int(state.x > 2 && bits(state.s, 0) != 0)");
+    EXPECT_EQ(counted_in_bits("forall_{?o : obj, ?u : obj} [s(?o, ?u) => x > 2]"),
+              "int(state.x > 2 || bits(state.s, 0) == 0)");
+    // Rows of two tables have a test of their own.
+    EXPECT_EQ(
+        counted_in_bits("exists_{?o : obj, ?u : obj} [s(?o, ?u) ^ s(?u, ?o) ^ x > 2]").find("bits"),
+        std::string::npos);
 }
 
 TEST(CountBits, TakesSeveralWords) {
