@@ -18,7 +18,8 @@ inline constexpr std::array suitable_lane_counts = {16, 64};
 // alone, if the nearest cache holds the action records of 64 environments. Draws do not count: as a
 // rule few lanes need them. Nor do bools that a pack computes only where one of its actions chooses
 // something, since 16 environments skip them more often than 64. A pack reads all of its action
-// records: where a step reads few bools of many, each environment takes less time alone.
+// records: where a step reads few bools of many, or computes little for records that the nearest
+// cache does not hold, each environment takes less time alone.
 // docs/lanes.md has the measurements.
 int suitable_lane_count(const Program& program);
 

@@ -67,6 +67,17 @@ TEST_F(LaneCountTest, ActionsThatAreReadInPartAreLeftToSingleEnvironments) {
     EXPECT_EQ(lanes_of(step), 1);
 }
 
+// Packs would wait for the next cache, unless there is much to compute for each action.
+TEST_F(LaneCountTest, ActionsOfFewLanesMustFitIntoTheCacheToo) {
+    const auto with_actions = [&](std::int64_t count, int operations) {
+        w.program.buffers[w.reboot.index].shape = {count};
+        return lanes_of({w.fill(w.next_running, w.c, connectives(operations))});
+    };
+    EXPECT_EQ(with_actions(2048, 400), 16);
+    EXPECT_EQ(with_actions(2049, 400), 1);
+    EXPECT_EQ(with_actions(2049, 10'000), 16);
+}
+
 // Packs of few lanes skip more often what no action chooses.
 TEST_F(LaneCountTest, BoolsThatActionsMustChooseDoNotCount) {
     const std::vector<Definition> bools = {w.fill(w.next_running, w.c, connectives(60)),
