@@ -10,6 +10,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <utility>
 
 namespace rddl::inline RDDL_SIMD_LEVEL {
 
@@ -145,6 +146,39 @@ RDDL_INLINE BitColumns lanes_of(const Mask<n>* masks, int count, int lane) {
     return columns;
 }
 
+#ifdef RDDL_SIMD_SQUARES
+// The bytes of columns 8 * `chunk` and following, of 8 registers, as words.
+template <int chunk>
+RDDL_ALWAYS_INLINE __m512i words_of_columns(const __m512i* rows) {
+    constexpr int half = chunk / 4, in_half = chunk % 4;
+    // Registers i and i + 4 side by side; then those two with i + 1 and i + 5.
+    const auto joined = [&](int i) RDDL_INLINE_LAMBDA {
+        return _mm512_maskz_shuffle_i64x2(0xFF, rows[i], rows[i + 4], half == 0 ? 0x44 : 0xEE);
+    };
+    const auto two = [&](int i) RDDL_INLINE_LAMBDA {
+        return in_half % 2 == 0 ? _mm512_maskz_unpacklo_epi64(0xFF, joined(i), joined(i + 1))
+                                : _mm512_maskz_unpackhi_epi64(0xFF, joined(i), joined(i + 1));
+    };
+    return simd::permuted_bytes(two(0), two(2), [](int i) {
+        const int row = i % 8, column = i / 8;
+        return row % 4 / 2 * 64 + row / 4 * 32 + in_half / 2 * 16 + row % 2 * 8 + column;
+    });
+}
+template <std::size_t... chunk>
+RDDL_ALWAYS_INLINE void store_masks_of_64(const std::array<BitColumns, 8>& columns, int count,
+                                          Mask<64>* masks, std::index_sequence<chunk...>) {
+    const std::uint64_t there = ~std::uint64_t{0} >> (64 - count);
+    __m512i rows[8];
+    for (std::size_t i = 0; i < 8; ++i) rows[i] = simd::reinterpret<__m512i>(columns[i]);
+    const auto store = [&]<int k>(std::integral_constant<int, k>) RDDL_INLINE_LAMBDA {
+        if (8 * k < count)
+            _mm512_mask_storeu_epi64(masks + 8 * k, static_cast<std::uint8_t>(there >> (8 * k)),
+                                     words_of_columns<k>(rows));
+    };
+    (store(std::integral_constant<int, static_cast<int>(chunk)>()), ...);
+}
+#endif
+
 // The reverse, for all lanes: element i of `columns` has those from 8 i on.
 template <int n>
 RDDL_INLINE void store_masks(const std::array<BitColumns, n / 8>& columns, int count,
@@ -173,6 +207,9 @@ RDDL_INLINE void store_masks(const std::array<BitColumns, n / 8>& columns, int c
         return;
     }
     if constexpr (n == 64) {
+#ifdef RDDL_SIMD_SQUARES
+        store_masks_of_64(columns, count, masks, std::make_index_sequence<8>());
+#else
         for (int first = 0; first < count; first += 8) {
             __m512i bits = _mm512_setzero_si512();
             for (unsigned i = 0; i < 8; ++i) {
@@ -187,6 +224,7 @@ RDDL_INLINE void store_masks(const std::array<BitColumns, n / 8>& columns, int c
             _mm512_mask_storeu_epi64(masks + first, static_cast<std::uint8_t>(there >> first),
                                      bits);
         }
+#endif
         return;
     }
 #endif
