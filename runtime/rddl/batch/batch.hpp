@@ -64,6 +64,7 @@ class Batch {
                                                           : state_columns_),
           states_(2 * block_count(), engine.state_size()),
           observations_(options.partially_observed ? block_count() : 0, engine.observation_size()),
+          actions_(keeps_actions() ? block_count() : 0, engine.action_size()),
           memories_(has_policy(engine) ? block_count() : 0, memory_size(engine)),
           streams_(make_streams()),
           last_steps_(options.keeps_steps ? count() : 0),
@@ -87,6 +88,7 @@ class Batch {
           observation_columns_(other.observation_columns_),
           states_(other.states_),
           observations_(other.observations_),
+          actions_(other.actions_),
           memories_(other.memories_),
           streams_(other.streams_),
           last_steps_(other.last_steps_),
@@ -109,6 +111,19 @@ class Batch {
         if (records == nullptr) return action_columns_.row_size == 0;
         return !action_columns_.has_objects ||
                records_are_valid(action_columns_, records, options_.environment_count);
+    }
+    // The same before a step. Some actions are read as they are checked.
+    bool takes_actions(const std::byte* records) {
+        if constexpr (has_byte_ints<L>) {
+            if (records != nullptr && keeps_actions()) {
+                const std::int64_t whole = options_.environment_count / width;
+                const std::int64_t rest = options_.environment_count % width;
+                return read_objects<L>(action_columns_, records, whole, actions_[0]) &&
+                       records_are_valid(action_columns_,
+                                         records + whole * width * action_columns_.row_size, rest);
+            }
+        }
+        return accepts_actions(records);
     }
     bool accepts_states(const std::byte* records, std::int64_t count) const {
         return records_are_valid(state_columns_, records, count);
@@ -436,6 +451,7 @@ class Batch {
             .episodes = episodes_.data(),
             .states = states_[0],
             .observations = options_.partially_observed ? observations_[0] : nullptr,
+            .actions = actions_[0],
             .state_columns = &state_columns_,
             .action_columns = &action_columns_,
             .observation_columns = &observation_columns_,
@@ -444,6 +460,8 @@ class Batch {
 
     static constexpr int lane_of(std::int64_t i) { return static_cast<int>(i % width); }
     static constexpr std::size_t index(std::int64_t b) { return static_cast<std::size_t>(b); }
+
+    bool keeps_actions() const { return are_read_when_checked<L>(action_columns_); }
 
     // Sizes of records of the C interface.
     std::size_t state_size() const { return static_cast<std::size_t>(problem_->state_size); }
@@ -732,6 +750,7 @@ class Batch {
     Columns state_columns_, action_columns_, observation_columns_;
     Records states_;               // two for each block
     Records observations_;         // blocks; empty when fully observed
+    Records actions_;              // blocks; empty unless they are read when they are checked
     Records memories_;             // of the policy; empty without a policy
     std::vector<Stream> streams_;  // of each environment; empty if nothing is drawn
     // The last step of each environment, if they are kept.

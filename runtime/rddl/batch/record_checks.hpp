@@ -76,6 +76,31 @@ inline bool records_are_valid(const Columns& columns, const std::byte* records,
     return true;
 }
 
+#ifdef RDDL_SIMD_BYTE_INTS
+// Reads whole blocks of objects alone (are_read_when_checked); whether all are valid.
+template <class L>
+bool read_objects(const Columns& columns, const std::byte* records, std::int64_t block_count,
+                  std::byte* blocks) {
+    using Int = typename L::Int;
+    const Column& column = columns.list.front();
+    const Int last = static_cast<std::int8_t>(column.limit - 1);
+    const std::int64_t size = L::width * columns.row_size;
+    return detail::with_byte_row(column.count, [&]<int n>(std::integral_constant<int, n>) {
+        simd::Words any{};
+        typename L::Bool are_objects{true};
+        for (std::int64_t b = 0; b < block_count; ++b) {
+            const std::byte* const rows = records + b * size;
+            auto* const values = reinterpret_cast<Int*>(blocks + b * columns.block_size);
+            detail::prefetch_rows(rows, size);
+            detail::read_rows_of_byte_ints(rows, columns.row_size, n, values, any);
+            for (int i = 0; i < n; ++i) are_objects = are_objects && values[i] <= last;
+        }
+        const auto* const words = reinterpret_cast<const std::byte*>(&any);
+        return all(are_objects) && detail::are_objects(words, simd::lanes, most_byte_objects);
+    });
+}
+#endif
+
 // Whether every int of these states lies within the bounds of its fluent.
 inline bool states_are_bounded(const rddl_problem& problem, const std::byte* records,
                                std::int64_t record_count) {

@@ -271,7 +271,7 @@ class Functions {
                                                  const rddl_transition& out) {
         if (!is_known(out)) return newer_transition();
         return any.use([&](auto& environments) {
-            if (!environments.accepts_actions(records)) return refused_actions(any, records);
+            if (!environments.takes_actions(records)) return refused_actions(any, records);
             environments.step(records, out);
             return RDDL_OK;
         });

@@ -98,13 +98,15 @@ struct Lanes {
     Lanes() = default;
     // Several registers are copied one by one. GCC copies structs in pieces of the size that -mtune
     // prefers, 16 or 32 bytes with many a -march=native, and a load of 64 bytes waits for pieces
-    // that have just been stored. The bytes of lanes may also be copied, as records are.
+    // that have just been stored. So does a table of byte ints, each of which is one register. The
+    // bytes of lanes may also be copied, as records are.
+    static constexpr bool is_copied_by_parts = part_count > 1 || std::same_as<T, std::int8_t>;
     Lanes(const Lanes&) = default;
-    RDDL_INLINE Lanes(const Lanes& other) requires(part_count > 1) {
+    RDDL_INLINE Lanes(const Lanes& other) requires is_copied_by_parts {
         copy_parts(other, std::make_index_sequence<part_count>());
     }
     Lanes& operator=(const Lanes&) = default;
-    RDDL_INLINE Lanes& operator=(const Lanes& other) requires(part_count > 1) {
+    RDDL_INLINE Lanes& operator=(const Lanes& other) requires is_copied_by_parts {
         copy_parts(other, std::make_index_sequence<part_count>());
         return *this;
     }

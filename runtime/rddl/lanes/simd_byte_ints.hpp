@@ -45,6 +45,12 @@ typedef std::uint8_t ByteWords __attribute__((vector_size(register_bytes)));
     return (Ints)_mm512_maskz_cvtepi8_epi64(0xFF, _mm_loadl_epi64((const __m128i_u*)bytes));
 }
 
+// The same as floats.
+[[gnu::always_inline]] inline Floats floats_of(const std::int8_t* bytes) {
+    const __m128i some = _mm_loadu_si128((const __m128i_u*)bytes);
+    return _mm512_maskz_cvtepi32_ps(0xFFFF, _mm512_maskz_cvtepi8_epi32(0xFFFF, some));
+}
+
 namespace detail {
 
 // For each two of 8 registers of ints: where the bytes of the result lie in them, and which
@@ -68,16 +74,18 @@ constexpr LowestBytes make_lowest_bytes() {
 template <int columns>
 inline constexpr LowestBytes lowest_bytes = make_lowest_bytes<columns>();
 
-// 64 ints, rows of so many columns.
+// 64 ints, rows of so many columns. `any` gets the bits of all.
 template <int columns>
-[[gnu::always_inline]] inline Words columns_of_bytes(const void* ints) {
+[[gnu::always_inline]] inline Words columns_of_bytes(const void* ints, Words& any) {
     const auto* from = static_cast<const char*>(ints);
     __m512i all = _mm512_setzero_si512();
     for (int two = 0; two < 4; ++two, from += 2 * register_bytes) {
         const auto places = _mm512_load_si512(lowest_bytes<columns>.places[two]);
-        all |= _mm512_maskz_permutex2var_epi8(lowest_bytes<columns>.are_there[two],
-                                              _mm512_loadu_si512(from), places,
-                                              _mm512_loadu_si512(from + register_bytes));
+        const auto first = _mm512_loadu_si512(from);
+        const auto second = _mm512_loadu_si512(from + register_bytes);
+        any |= (Words)(first | second);
+        all |= _mm512_maskz_permutex2var_epi8(lowest_bytes<columns>.are_there[two], first, places,
+                                              second);
     }
     return (Words)all;
 }
@@ -96,14 +104,17 @@ template <int count, int step, int distance>
 
 // The lowest bytes of 64 ints.
 [[gnu::always_inline]] inline ByteInts narrowed(const Ints* ints) {
-    return (ByteInts)detail::columns_of_bytes<1>(ints);
+    Words any{};
+    return (ByteInts)detail::columns_of_bytes<1>(ints, any);
 }
-// The same of 64 rows of 2, 4 or 8 ints, one behind the other.
+// The same of 64 rows of 2, 4 or 8 ints, one behind the other. `any` gets the bits of all.
 template <int count>
-[[gnu::always_inline]] inline void narrow_rows(const void* rows, ByteInts (&columns)[count]) {
+[[gnu::always_inline]] inline void narrow_rows(const void* rows, ByteInts (&columns)[count],
+                                               Words& any) {
     Words registers[count];
     for (int i = 0; i < count; ++i)
-        registers[i] = detail::columns_of_bytes<count>(static_cast<const char*>(rows) + 512 * i);
+        registers[i] =
+            detail::columns_of_bytes<count>(static_cast<const char*>(rows) + 512 * i, any);
     detail::transpose_parts<count, count / 2, lanes / 2>(registers);
     for (int i = 0; i < count; ++i) columns[i] = (ByteInts)registers[i];
 }
@@ -112,10 +123,12 @@ template <int count>
 
 template <class T>
 Ints widened(const T* bytes) = delete;
+template <class T>
+Floats floats_of(const T* bytes) = delete;
 template <class V>
 ByteInts narrowed(const V* ints) = delete;
 template <int count, class V>
-void narrow_rows(const void* rows, V (&columns)[count]) = delete;
+void narrow_rows(const void* rows, V (&columns)[count], Words& any) = delete;
 
 #endif
 

@@ -48,12 +48,12 @@ inline constexpr bool takes_bools_as_given = [] {
     return false;
 }();
 
-// Callers' rows come from memory, and the loads that transpose them hide from hardware prefetchers
-// that they are read one after the other.
-RDDL_INLINE void prefetch_rows(const std::byte* next, std::int64_t size) {
-    constexpr std::int64_t distance = 2048, line = 64;
-    for (std::int64_t k = distance; k < distance + size; k += line) __builtin_prefetch(next + k);
-}
+// Whether whole blocks of actions have been read when they were checked.
+template <Engine E>
+inline constexpr bool reads_checked_actions = [] {
+    if constexpr (TypedEngine<E>) return are_read_when_checked<typename E::Lane>(E::action_columns);
+    return false;
+}();
 
 // A step reads few bytes of rows with many bools, but mostly all small tables: those of a later
 // environment are asked for.
@@ -85,6 +85,8 @@ RDDL_ALWAYS_INLINE const std::byte* action_of_block(const E& engine, const Block
     }
     if (actions.block) {
         copy_action(engine, actions.block, room);
+    } else if constexpr (reads_checked_actions<E>) {
+        return blocks.actions + static_cast<std::size_t>(b) * engine.action_size();
     } else {
         if constexpr (L::width > 1)
             prefetch_rows(actions.rows + first, L::width * columns.row_size);

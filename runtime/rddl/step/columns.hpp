@@ -306,29 +306,46 @@ RDDL_INLINE void read_pairs(const std::byte* rows, T* values) {
     }
     for (int i = 0; i < 2; ++i) values[i] = from_records<T>(columns[i]);
 }
-// The same of rows of 2, 4 or 8 ints that are byte ints in the block, if they are nothing else.
+
+// Callers' rows come from memory, and the loads that transpose them hide from hardware prefetchers
+// that they are read one after the other.
+RDDL_INLINE void prefetch_rows(const std::byte* next, std::int64_t size) {
+    constexpr std::int64_t distance = 2048, line = 64;
+    for (std::int64_t k = distance; k < distance + size; k += line) __builtin_prefetch(next + k);
+}
+
+// Calls body with a constant that is this count, if rows of so many ints are transposed as bytes;
+// else returns nothing.
+template <class Body>
+RDDL_INLINE auto with_byte_row(std::int64_t count, Body&& body)
+    -> decltype(body(std::integral_constant<int, 2>())) {
+    if (count == 2) return body(std::integral_constant<int, 2>());
+    if (count == 4) return body(std::integral_constant<int, 4>());
+    if (count == 8) return body(std::integral_constant<int, 8>());
+    return {};
+}
+// Reads rows of such ints and nothing else, which are byte ints in the block. `any` gets the bits
+// of all.
 template <class T>
 RDDL_INLINE bool read_rows_of_byte_ints(const std::byte* rows, std::int64_t row_size,
-                                        std::int64_t count, T* values) {
+                                        std::int64_t count, T* values, simd::Words& any) {
     if (row_size != count * static_cast<std::int64_t>(sizeof(std::int64_t))) return false;
-    const auto read = [&]<int n>(std::integral_constant<int, n>) RDDL_INLINE_LAMBDA {
+    return with_byte_row(count, [&]<int n>(std::integral_constant<int, n>) RDDL_INLINE_LAMBDA {
         simd::ByteInts columns[n];
-        simd::narrow_rows(rows, columns);
+        simd::narrow_rows(rows, columns, any);
         for (int i = 0; i < n; ++i) values[i].part[0] = columns[i];
         return true;
-    };
-    if (count == 2) return read(std::integral_constant<int, 2>());
-    if (count == 4) return read(std::integral_constant<int, 4>());
-    if (count == 8) return read(std::integral_constant<int, 8>());
-    return false;
+    });
 }
 // Reads `count` columns, at most as many as a register has lanes, of whole blocks.
 template <class T>
 RDDL_INLINE void read_columns(const std::byte* rows, std::int64_t row_size, std::int64_t count,
                               T* values) {
     using Value = InRecord<typename T::Element>;
-    if constexpr (std::is_same_v<typename T::Element, std::int8_t>)
-        if (read_rows_of_byte_ints(rows, row_size, count, values)) return;
+    if constexpr (std::is_same_v<typename T::Element, std::int8_t>) {
+        simd::Words any{};
+        if (read_rows_of_byte_ints(rows, row_size, count, values, any)) return;
+    }
     if (count == 2 && row_size == 2 * sizeof(Value)) return read_pairs(rows, values);
     Lanes<Value, T::width> columns[simd::lanes];
     for (int p = 0; p < columns[0].part_count; ++p) {
@@ -424,6 +441,20 @@ inline constexpr std::int64_t least_transposed = simd::lanes;
 #endif
 
 }  // namespace detail
+
+// An object of more is no byte int.
+inline constexpr std::int64_t most_byte_objects = 128;
+
+// Whether records are nothing but objects that are transposed as byte ints. Whole blocks of them
+// are read as they are checked, into Blocks::actions.
+template <class L, class List>
+constexpr bool are_read_when_checked(const ColumnTable<List>& columns) {
+    if (!has_byte_ints<L> || columns.list.size() != 1) return false;
+    const Column& column = columns.list.front();
+    return column.limit > 0 && column.limit <= most_byte_objects &&
+           columns.row_size == 8 * column.count &&
+           detail::with_byte_row(column.count, [](auto) { return true; });
+}
 
 // ---------------------------------------------------------------------------- single values
 

@@ -157,8 +157,9 @@ struct Blocks {
     rddl_autoreset autoreset;
     const Stream* streams;  // of each environment; null: nothing is drawn
     Episodes<L>* episodes;
-    std::byte* states;        // two records for each block: its state, and room for the next one
-    std::byte* observations;  // null when fully observed
+    std::byte* states;         // two records for each block: its state, and room for the next one
+    std::byte* observations;   // null when fully observed
+    const std::byte* actions;  // those of whole blocks that are read when they are checked
     const Columns* state_columns;
     const Columns* action_columns;
     const Columns* observation_columns;

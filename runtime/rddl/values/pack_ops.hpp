@@ -267,7 +267,12 @@ RDDL_INLINE Lanes<double, n> to_real(const Lanes<std::int8_t, n>& a) {
 }
 template <int n>
 RDDL_INLINE Lanes<float, n> to_float(const Lanes<std::int8_t, n>& a) {
-    return to_float(widened(a));
+    std::int8_t bytes[n];
+    a.store(bytes);
+    Lanes<float, n> reals;
+    for (int p = 0; p < reals.part_count; ++p)
+        reals.part[p] = simd::floats_of(bytes + p * reals.part_width);
+    return reals;
 }
 // As ints of this type.
 template <class Int, int n>

@@ -49,5 +49,45 @@ TEST(RecordChecks, LeaveNumbersBesideObjects) {
     for (const std::size_t rows : {1, 5}) expect_all_are_checked(both, rows);
 }
 
+#ifdef RDDL_SIMD_BYTE_INTS
+// The last of two blocks of byte ints.
+void expect_objects_are_read(std::int64_t count, std::int64_t objects) {
+    using L = ByteIntPack<>;
+    constexpr std::size_t width = L::width, blocks = 2;
+    const auto row = static_cast<std::size_t>(count);
+    const Columns columns{.list = {{.scalar = RDDL_INT, .limit = objects, .count = count}},
+                          .row_size = 8 * count,
+                          .block_size = 64 * count,
+                          .has_objects = true};
+    ASSERT_TRUE(are_read_when_checked<L>(columns));
+    std::vector<std::int64_t> values(blocks * width * row);
+    for (std::size_t i = 0; i < values.size(); ++i)
+        values[i] = static_cast<std::int64_t>(i * 7) % objects;
+    std::vector<L::Int> read(blocks * row);
+    const auto are_read = [&] {
+        return read_objects<L>(columns, std::as_bytes(std::span(values)).data(), blocks,
+                               std::as_writable_bytes(std::span(read)).data());
+    };
+    EXPECT_TRUE(are_read());
+    for (std::size_t i = 0; i < values.size(); ++i)
+        EXPECT_EQ(read[i / row / width * row + i % row][static_cast<int>(i / row % width)],
+                  values[i]);
+    for (std::size_t i = values.size() / 2; i < values.size(); ++i) {
+        const std::int64_t valid = values[i];
+        for (const std::int64_t other :
+             {std::int64_t{-1}, objects, objects + 256, INT64_MIN, INT64_MAX}) {
+            values[i] = other;
+            EXPECT_FALSE(are_read()) << i << " " << other;
+        }
+        values[i] = valid;
+    }
+}
+
+TEST(RecordChecks, ReadByteObjects) {
+    for (const std::int64_t objects : {1, 5, 127, 128})
+        for (const std::int64_t count : {2, 4, 8}) expect_objects_are_read(count, objects);
+}
+#endif
+
 }  // namespace
 }  // namespace rddl

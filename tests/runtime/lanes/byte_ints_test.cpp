@@ -80,7 +80,14 @@ void expect_columns_of_rows() {
         for (std::size_t column = 0; column < columns; ++column)
             rows[row][column] = static_cast<std::int64_t>(row * 2) - static_cast<int>(column * 7);
     simd::ByteInts found[columns];
-    simd::narrow_rows(rows.data(), found);
+    simd::Words any{};
+    simd::narrow_rows(rows.data(), found, any);
+    std::uint64_t bits = 0, bits_found = 0;
+    for (std::size_t row = 0; row < width; ++row)
+        for (std::size_t column = 0; column < columns; ++column)
+            bits |= static_cast<std::uint64_t>(rows[row][column]);
+    for (int i = 0; i < simd::lanes; ++i) bits_found |= any[i];
+    EXPECT_EQ(bits_found, bits);
     for (std::size_t row = 0; row < width; ++row)
         for (std::size_t column = 0; column < columns; ++column)
             EXPECT_EQ(found[column][row], rows[row][column]) << row << ", " << column;

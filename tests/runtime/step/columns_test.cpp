@@ -223,6 +223,31 @@ TEST(Columns, OfFewBools) {
 }
 #endif
 
+#ifdef RDDL_SIMD_SQUARES
+// Rows one behind the other, whose true bools may be any byte but 0.
+template <int n>
+void expect_runs_of_rows() {
+    std::mt19937_64 random(4);
+    for (std::int64_t count = 1; count <= widest_row_of_run; ++count) {
+        std::vector<std::byte> rows(static_cast<std::size_t>(n * count));
+        for (std::byte& byte : rows)
+            byte = random() % 2 == 0 ? std::byte{0} : static_cast<std::byte>(random());
+        std::vector<Mask<n>> masks(static_cast<std::size_t>(count));
+        read_run_of_rows(rows.data(), count, masks.data());
+        for (int lane = 0; lane < n; ++lane)
+            for (std::int64_t k = 0; k < count; ++k)
+                EXPECT_EQ(masks[static_cast<std::size_t>(k)][lane],
+                          rows[static_cast<std::size_t>(lane * count + k)] != std::byte{0})
+                    << "bool " << k << " of " << count << " of row " << lane;
+    }
+}
+
+TEST(Columns, OfBoolsAlone) {
+    expect_runs_of_rows<16>();
+    expect_runs_of_rows<64>();
+}
+#endif
+
 // Two tables side by side, and one behind a number.
 TEST(Columns, WithBytesOtherThan0And1) {
     Columns columns;
