@@ -204,6 +204,18 @@ template <int count>
     add(std::uint8_t{});
     return rest != 0;
 }
+// The same of the first `count` bytes of a register.
+template <int count, class V>
+[[gnu::always_inline]] inline bool is_any_byte(const V& bytes) {
+#ifdef RDDL_SIMD_AVX512
+    if constexpr (count % 2 == 0) {
+        constexpr std::uint32_t there = ~std::uint32_t{0} >> (32 - count / 2);
+        const auto pairs = reinterpret<__m512i>(bytes);
+        return (_mm512_test_epi16_mask(pairs, pairs) & there) != 0;
+    }
+#endif
+    return is_any_stored_byte<count>(&bytes);
+}
 // Whether one byte is not 0 in all of these rows of bytes, which are 0 or 1.
 template <int count, class... Rows>
 [[gnu::always_inline]] inline bool is_any_byte_in_all(const Rows*... rows) {

@@ -146,6 +146,17 @@ RDDL_INLINE void store_many(const ManyBools<Bool, n>& values, Bool* to) {
     });
 }
 
+// Whether one is true.
+template <int lanes, int n>
+RDDL_INLINE bool any_of_many(const ManyBools<Mask<lanes>, n>& values) {
+    bool is_any = false;
+    ManyBools<Mask<lanes>, n>::for_each_part([&]<int p, int count>() RDDL_INLINE_LAMBDA {
+        constexpr int bytes = count * static_cast<int>(sizeof(Mask<lanes>));
+        is_any |= simd::is_any_byte<bytes>(values.part[p]);
+    });
+    return is_any;
+}
+
 // Bools that all environments share.
 template <class Bool, int n>
 RDDL_INLINE ManyBools<Bool, n> spread_many(const bool* from) {

@@ -172,10 +172,6 @@ template <class Probability, int n>
 inline constexpr bool are_by_pairs = false;
 template <const auto& table, int n>
 inline constexpr bool are_by_pairs<ChancesOfMany<table>, n> = count_of<table> == n;
-template <class Probability>
-inline constexpr bool may_be_certain = false;
-template <const auto& table>
-inline constexpr bool may_be_certain<ChancesOfMany<table>> = has_certain_chances<table>;
 
 // Which of 64 objects of one environment, from `first` on, draw a number below p: of those that are
 // wanted. The numbers are made for 16 neighbours at once.
@@ -221,24 +217,30 @@ RDDL_INLINE ManyBools<bool, n> drawn(Context<ScalarOf<R>>& context, Place place,
     });
 }
 
+// Of a register of objects, few or none mostly draw: one test then serves all of them.
 template <int lanes, class R, int n, class Probability>
 RDDL_INLINE ManyBools<Mask<lanes>, n> drawn(Context<Pack<lanes, R>>& context, Place place,
                                             const ManyBools<Mask<lanes>, n>& wanted,
                                             const Probability& p) {
+    if (!any_of_many(wanted)) return wanted;
     std::array<Mask<lanes>, static_cast<std::size_t>(n)> masks;
     store_many(wanted, masks.data());
     for (int k = 0; k < n; ++k) {
         Mask<lanes>& mask = masks[static_cast<std::size_t>(k)];
         if (!any(mask)) continue;
-        const auto& chance = real_of(in_memory(p), k);
-        if (may_be_certain<Probability> && is_certain(chance)) {
-            mask = mask && chance > 0;
-            continue;
-        }
         const Place of_object(place.site, place.index + k, place.series);
-        mask = uniform_below(context, of_object, mask, chance);
+        mask = uniform_below(context, of_object, mask, real_of(in_memory(p), k));
     }
     return load_many<n>(masks.data());
+}
+template <int lanes, class R, int n, const auto& table>
+requires(has_certain_chances<table>) RDDL_INLINE ManyBools<Mask<lanes>, n> drawn(
+    Context<Pack<lanes, R>>& context, Place place, const ManyBools<Mask<lanes>, n>& wanted,
+    const ChancesOfMany<table>& p) {
+    using Many = ManyBools<Mask<lanes>, n>;
+    const Many random = spread_many<Mask<lanes>, n>(random_objects<table>.data() + p.first);
+    const Many always = spread_many<Mask<lanes>, n>(always_drawn<table>.data() + p.first);
+    return drawn(context, place, wanted && random, in_memory(p)) || (wanted && always);
 }
 
 }  // namespace detail

@@ -173,6 +173,18 @@ RDDL_INLINE void store_masks(const std::array<BitColumns, n / 8>& columns, int c
                    _mm512_maskz_extracti64x4_epi64(0xF, high, 1));
         return;
     }
+#ifdef RDDL_SIMD_SQUARES
+    if constexpr (n == 64) {
+        simd::EightRegisters bytes;
+        for (std::size_t i = 0; i < columns.size(); ++i)
+            bytes.of[i] = simd::reinterpret<__m512i>(columns[i]);
+        bytes = simd::columns_of_bytes(bytes);
+        for (int i = 0; 8 * i < count; ++i)
+            _mm512_mask_storeu_epi64(masks + 8 * i, static_cast<std::uint8_t>(there >> 8 * i),
+                                     bytes.of[i]);
+        return;
+    }
+#endif
     if constexpr (n == 64) {
         for (int first = 0; first < count; first += 8) {
             __m512i bits = _mm512_setzero_si512();
@@ -352,6 +364,11 @@ Lanes<std::int64_t, n> bits_in_lanes(const Mask<n>* masks) {
         const auto rows = simd::rows_of_pairs<count>(&masks->bits);
         bits.part[0] = simd::reinterpret<simd::Words>(rows.low);
         bits.part[1] = simd::reinterpret<simd::Words>(rows.high);
+        return ints_of(bits);
+    }
+    if constexpr (n == 64) {
+        const simd::EightRegisters rows = simd::rows_of_words<count>(&masks->bits);
+        for (int p = 0; p < 8; ++p) bits.part[p] = simd::reinterpret<simd::Words>(rows.of[p]);
         return ints_of(bits);
     }
 #endif
