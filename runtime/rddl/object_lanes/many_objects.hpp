@@ -77,9 +77,11 @@ RDDL_INLINE auto at_places(const Table& table, const ManyObjects<n, L>& objects)
     using Many = ManyBools<typename L::Bool, n>;
     const auto* const elements = &detail::first_part<0>(table);
     const auto* const first = &detail::first_part<0>(places) + objects.first;
-    constexpr bool are_few =
-        detail::Nested<std::remove_cvref_t<decltype(places)>>::count <= most_places_in_lines;
-    if constexpr (L::width == 1 || !are_few)
+    constexpr auto place_count = detail::Nested<std::remove_cvref_t<decltype(places)>>::count;
+    constexpr bool are_few = place_count <= most_places_in_lines;
+    if constexpr (L::width == 1 && chooses_by_parts && place_count == n)
+        return choose_many_by_parts<places, detail::Nested<Table>::count, n>(elements);
+    else if constexpr (L::width == 1 || !are_few)
         return choose_many<n, detail::Nested<Table>::count>(elements, first);
     else
         return choose_many<n, detail::Nested<Table>::count>(
