@@ -90,8 +90,9 @@ template <int count>
     EightRegisters squares;
     for (int i = 0; i < 8; ++i) {
         const auto there = static_cast<std::uint8_t>((~std::uint64_t{0} >> (64 - count)) >> 8 * i);
-        squares.of[i] = there == 0 ? _mm512_setzero_si512()
-                                : columns_of_rows(_mm512_maskz_loadu_epi64(there, columns + 8 * i));
+        squares.of[i] = there == 0
+                            ? _mm512_setzero_si512()
+                            : columns_of_rows(_mm512_maskz_loadu_epi64(there, columns + 8 * i));
     }
     return columns_of_bytes(squares);
 }

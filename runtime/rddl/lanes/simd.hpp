@@ -520,8 +520,8 @@ typedef std::uint64_t TwoWords __attribute__((vector_size(16)));
 }
 [[gnu::always_inline]] inline __m256i bytes_of_many_bits(std::uint64_t bits) {
     const __m256i own_bit = _mm256_set1_epi64x(static_cast<std::int64_t>(0x8040201008040201));
-    const __m256i own_byte = _mm256_set_epi64x(0x0303030303030303, 0x0202020202020202,
-                                               0x0101010101010101, 0);
+    const __m256i own_byte =
+        _mm256_set_epi64x(0x0303030303030303, 0x0202020202020202, 0x0101010101010101, 0);
     const __m256i all = _mm256_set1_epi32(static_cast<std::int32_t>(bits));
     const __m256i own = _mm256_and_si256(_mm256_shuffle_epi8(all, own_byte), own_bit);
     return _mm256_and_si256(_mm256_cmpeq_epi8(own, own_bit), _mm256_set1_epi8(1));

@@ -69,11 +69,13 @@ constexpr auto objects_where(Test test) {
     return bools;
 }
 template <const auto& table>
-inline constexpr auto random_objects =
-    objects_where<table>([](RealOf<table> p) { return !is_certain(p); });
+inline constexpr auto random_objects = objects_where<table>([](RealOf<table> p) {
+    return !is_certain(p);
+});
 template <const auto& table>
-inline constexpr auto always_drawn =
-    objects_where<table>([](RealOf<table> p) { return is_certain(p) && p > 0; });
+inline constexpr auto always_drawn = objects_where<table>([](RealOf<table> p) {
+    return is_certain(p) && p > 0;
+});
 
 // The pairs of neighbours of which one at least needs a random number, a register of pairs after
 // the other; few pairs have a small register. Lanes behind the last pair repeat pair 0, and never

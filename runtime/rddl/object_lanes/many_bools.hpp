@@ -329,8 +329,8 @@ RDDL_INLINE __m256i chosen_by_parts(const bool* table) {
             constexpr int rest = static_cast<int>(size) - static_cast<int>(16 * i);
             const __m128i some = simd::load_parts(table + 16 * i, rest < 16 ? rest : 16);
             const auto from = _mm256_load_si256(reinterpret_cast<const __m256i*>(part.of.data()));
-            chosen = _mm256_or_si256(
-                chosen, _mm256_shuffle_epi8(_mm256_broadcastsi128_si256(some), from));
+            chosen = _mm256_or_si256(chosen,
+                                     _mm256_shuffle_epi8(_mm256_broadcastsi128_si256(some), from));
         }
     };
     [&]<std::size_t... i>(std::index_sequence<i...>) RDDL_INLINE_LAMBDA {
