@@ -59,12 +59,12 @@ template <int numbers>
     return _mm512_maskz_shuffle_i64x2(0xFF, a, b, numbers);
 }
 // The registers are 8 rows of 64 bytes; their 64 columns of 8 bytes, one after the other.
-struct EightRegisters {
+struct RegistersOfRows {
     __m512i of[8];
 };
-[[gnu::always_inline]] inline EightRegisters columns_of_bytes(const EightRegisters& rows) {
+[[gnu::always_inline]] inline RegistersOfRows columns_of_bytes(const RegistersOfRows& rows) {
     constexpr int even = 0x88, odd = 0xDD;
-    EightRegisters columns;
+    RegistersOfRows columns;
     // Words first: those with even numbers, then the others.
     for (int first = 0; first < 2; ++first) {
         const auto pairs = [&](int i) __attribute__((always_inline)) {
@@ -86,8 +86,8 @@ struct EightRegisters {
 // `count` <= 64 columns of 64 bits as 64 rows of `count` bits, one after the other; the other bits
 // of the rows are 0.
 template <int count>
-[[gnu::always_inline]] inline EightRegisters rows_of_words(const std::uint64_t* columns) {
-    EightRegisters squares;
+[[gnu::always_inline]] inline RegistersOfRows rows_of_words(const std::uint64_t* columns) {
+    RegistersOfRows squares;
     for (int i = 0; i < 8; ++i) {
         const auto there = static_cast<std::uint8_t>((~std::uint64_t{0} >> (64 - count)) >> 8 * i);
         squares.of[i] = there == 0

@@ -164,14 +164,14 @@ inline BitRows rows_of(const BitColumns& columns) {
 // Masks of 16 lanes: bytes of pairs, and pairs of bytes.
 RDDL_ALWAYS_INLINE BitColumns lanes_of_pairs(const std::uint16_t* masks, int count, int lane) {
     const auto sixteen = [&](int first) RDDL_INLINE_LAMBDA {
-        const auto eight = [&](int k) RDDL_INLINE_LAMBDA {
+        const auto bytes_of = [&](int k) RDDL_INLINE_LAMBDA {
             if (k >= count) return __m128i{};
             const int rest = count - k;
             const __m128i bits = simd::load_parts(masks + k, rest < 8 ? 2 * rest : 16);
             return _mm_and_si128(_mm_srl_epi16(bits, _mm_cvtsi32_si128(lane)),
                                  _mm_set1_epi16(0xFF));
         };
-        return first < count ? _mm_packus_epi16(eight(first), eight(first + 8)) : __m128i{};
+        return first < count ? _mm_packus_epi16(bytes_of(first), bytes_of(first + 8)) : __m128i{};
     };
     BitColumns columns;
     store_square(
@@ -182,11 +182,11 @@ RDDL_ALWAYS_INLINE BitColumns lanes_of_pairs(const std::uint16_t* masks, int cou
 RDDL_ALWAYS_INLINE void store_pairs(const BitColumns& low, const BitColumns& high, int count,
                                     std::uint16_t* masks) {
     for (int k = 0; k < count; k += 8) {
-        const auto eight = [k](const BitColumns& columns) RDDL_INLINE_LAMBDA {
+        const auto bytes_in = [k](const BitColumns& columns) RDDL_INLINE_LAMBDA {
             return _mm_loadl_epi64(
                 reinterpret_cast<const __m128i_u*>(&columns[static_cast<std::size_t>(k)]));
         };
-        const __m128i bits = _mm_unpacklo_epi8(eight(low), eight(high));
+        const __m128i bits = _mm_unpacklo_epi8(bytes_in(low), bytes_in(high));
         const int rest = count - k;
         simd::store_parts(masks + k, bits, rest < 8 ? 2 * rest : 16);
     }
@@ -196,15 +196,16 @@ RDDL_ALWAYS_INLINE void store_pairs(const BitColumns& low, const BitColumns& hig
 RDDL_ALWAYS_INLINE void store_words(const std::array<BitColumns, 8>& columns, int count,
                                     std::uint64_t* masks) {
     for (int k = 0; k < count; k += 8) {
-        BitRows eight;
+        BitRows some_words;
         for (std::size_t i = 0; i < 8; ++i)
-            std::memcpy(&eight[i], &columns[i][static_cast<std::size_t>(k)], sizeof eight[i]);
-        const Square square = bytes_exchanged(square_of(eight));
+            std::memcpy(&some_words[i], &columns[i][static_cast<std::size_t>(k)],
+                        sizeof some_words[i]);
+        const Square square = bytes_exchanged(square_of(some_words));
         if (k + 8 <= count) {
             store_square(square, masks + k);
         } else {
-            store_square(square, &eight);
-            std::copy_n(eight.begin(), count - k, masks + k);
+            store_square(square, &some_words);
+            std::copy_n(some_words.begin(), count - k, masks + k);
         }
     }
 }
@@ -221,9 +222,9 @@ RDDL_INLINE std::array<BitRows, 8> rows_of_words(const std::uint64_t* masks) {
     }
     std::array<BitRows, 8> rows;
     for (std::size_t g = 0; g < 8; ++g) {
-        const BitRows eight{squares[0][g], squares[1][g], squares[2][g], squares[3][g],
-                            squares[4][g], squares[5][g], squares[6][g], squares[7][g]};
-        store_square(bytes_exchanged(square_of(eight)), &rows[g]);
+        const BitRows some_words{squares[0][g], squares[1][g], squares[2][g], squares[3][g],
+                                 squares[4][g], squares[5][g], squares[6][g], squares[7][g]};
+        store_square(bytes_exchanged(square_of(some_words)), &rows[g]);
     }
     return rows;
 }
@@ -297,7 +298,7 @@ RDDL_INLINE void store_masks(const std::array<BitColumns, n / 8>& columns, int c
     }
 #ifdef RDDL_SIMD_SQUARES
     if constexpr (n == 64) {
-        simd::EightRegisters bytes;
+        simd::RegistersOfRows bytes;
         for (std::size_t i = 0; i < columns.size(); ++i)
             bytes.of[i] = simd::reinterpret<__m512i>(columns[i]);
         bytes = simd::columns_of_bytes(bytes);

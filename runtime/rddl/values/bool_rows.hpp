@@ -167,7 +167,7 @@ Lanes<std::int64_t, n> bits_in_lanes(const Mask<n>* masks) {
         return ints_of(bits);
     }
     if constexpr (n == 64) {
-        const simd::EightRegisters rows = simd::rows_of_words<count>(&masks->bits);
+        const simd::RegistersOfRows rows = simd::rows_of_words<count>(&masks->bits);
         for (int p = 0; p < 8; ++p) bits.part[p] = simd::reinterpret<simd::Words>(rows.of[p]);
         return ints_of(bits);
     }
