@@ -219,7 +219,7 @@ RDDL_INLINE ManyBools<bool, n> drawn(Context<ScalarOf<R>>& context, Place place,
     });
 }
 
-// Of a register of objects, few or none mostly draw: one test then serves all of them.
+// Mostly few objects of a register draw, or none: then one test serves all of them.
 template <int lanes, class R, int n, class Probability>
 RDDL_INLINE ManyBools<Mask<lanes>, n> drawn(Context<Pack<lanes, R>>& context, Place place,
                                             const ManyBools<Mask<lanes>, n>& wanted,
