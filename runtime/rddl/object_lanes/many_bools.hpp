@@ -295,63 +295,61 @@ RDDL_INLINE ManyBools<Mask<lanes>, n> choose_many(const Mask<lanes>* table, cons
 }
 
 #if defined(__AVX2__) && !defined(__AVX512VBMI__)
-// Places that the compiler knows, of 32 objects after the other: for each part of 16 bytes of a
-// table, where those in it are; 0x80 for the others, for which a permutation gives zero.
+// Places that the compiler knows, of the objects of one register after the other: for each part of
+// 16 bytes of a table, where those in it are; 0x80 for the others, for which a permutation gives
+// zero.
 template <const auto& places, std::int64_t size>
 struct PlacesByPart {
     static constexpr auto count = static_cast<std::size_t>(
         rddl::detail::element_count<std::remove_cvref_t<decltype(places)>>);
-    static constexpr std::size_t part_count = (size + 15) / 16;
-    struct alignas(32) Part {
-        std::array<std::uint8_t, 32> of;
+    static constexpr std::size_t part_count = (size + 15) / 16, width = simd::register_bytes;
+    struct alignas(width) Part {
+        std::array<std::uint8_t, width> of;
         bool has_some;
     };
     static constexpr auto of_objects = [] {
-        std::array<std::array<Part, part_count>, (count + 31) / 32> all{};
+        std::array<std::array<Part, part_count>, (count + width - 1) / width> all{};
         for (auto& parts : all)
             for (Part& part : parts) part.of.fill(0x80);
         for (std::size_t i = 0; i < count; ++i) {
             const auto place = static_cast<std::size_t>(rddl::detail::element_at(places, i));
-            Part& part = all[i / 32][place / 16];
-            part.of[i % 32] = static_cast<std::uint8_t>(place % 16);
+            Part& part = all[i / width][place / 16];
+            part.of[i % width] = static_cast<std::uint8_t>(place % 16);
             part.has_some = true;
         }
         return all;
     }();
 };
-template <const auto& places, std::int64_t size, std::size_t register_of_objects>
-RDDL_INLINE __m256i chosen_by_parts(const bool* table) {
-    using Places = PlacesByPart<places, size>;
-    __m256i chosen = _mm256_setzero_si256();
-    const auto add = [&]<std::size_t i>() RDDL_INLINE_LAMBDA {
-        constexpr auto& part = Places::of_objects[register_of_objects][i];
-        if constexpr (part.has_some) {
-            constexpr int rest = static_cast<int>(size) - static_cast<int>(16 * i);
-            const __m128i some = simd::load_parts(table + 16 * i, rest < 16 ? rest : 16);
-            const auto from = _mm256_load_si256(reinterpret_cast<const __m256i*>(part.of.data()));
-            chosen = _mm256_or_si256(chosen,
-                                     _mm256_shuffle_epi8(_mm256_broadcastsi128_si256(some), from));
-        }
-    };
-    [&]<std::size_t... i>(std::index_sequence<i...>) RDDL_INLINE_LAMBDA {
-        (add.template operator()<i>(), ...);
-    }
-    (std::make_index_sequence<Places::part_count>());
-    return chosen;
+// The bytes that have these places among 16.
+RDDL_ALWAYS_INLINE auto permuted(__m128i some, const void* places) {
+#ifdef RDDL_SIMD_AVX512
+    return _mm512_maskz_shuffle_epi8(~std::uint64_t{0}, _mm512_maskz_broadcast_i32x4(0xFFFF, some),
+                                     _mm512_load_si512(places));
+#else
+    return _mm256_shuffle_epi8(_mm256_broadcastsi128_si256(some),
+                               _mm256_load_si256(static_cast<const __m256i*>(places)));
+#endif
 }
 template <const auto& places, std::int64_t size, int n>
 RDDL_INLINE ManyBools<bool, n> choose_many_by_parts(const bool* table) {
     using Many = ManyBools<bool, n>;
+    using Places = PlacesByPart<places, size>;
     using Vector = typename Many::Vector;
-    return Many::of_parts([&]<int p, int count>() RDDL_INLINE_LAMBDA {
-        constexpr int halves = sizeof(Vector) / 32;
-        __m256i bytes[halves]{};
-        bytes[0] = chosen_by_parts<places, size, halves * p>(table);
-        if constexpr (count > 32)
-            bytes[halves - 1] = chosen_by_parts<places, size, halves * p + 1>(table);
-        Vector all;
-        __builtin_memcpy(&all, bytes, sizeof all);
-        return all;
+    return Many::of_parts([&]<int p, int>() RDDL_INLINE_LAMBDA {
+        Vector chosen{};
+        const auto add = [&]<std::size_t i>() RDDL_INLINE_LAMBDA {
+            constexpr auto& part = Places::of_objects[p][i];
+            if constexpr (part.has_some) {
+                constexpr int rest = static_cast<int>(size) - static_cast<int>(16 * i);
+                const __m128i some = simd::load_parts(table + 16 * i, rest < 16 ? rest : 16);
+                chosen |= simd::reinterpret<Vector>(permuted(some, part.of.data()));
+            }
+        };
+        [&]<std::size_t... i>(std::index_sequence<i...>) RDDL_INLINE_LAMBDA {
+            (add.template operator()<i>(), ...);
+        }
+        (std::make_index_sequence<Places::part_count>());
+        return chosen;
     });
 }
 inline constexpr bool chooses_by_parts = true;
