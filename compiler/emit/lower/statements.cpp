@@ -276,12 +276,14 @@ void FunctionBody::over_several_objects(const ir::Loop& loop, bool is_from_start
     expressions_.return_to(before);
     if (loop.affected) {
         const auto& [few, rows, affected, moves] = *loop.affected;
+        const std::string its_context = moves ? expressions_.claim("apart") : "context";
         tree::Expression all =
             tree::call("rddl::for_affected_objects<" + count + ">",
-                       tree::list(tree::word("context"), expressions_.record(few),
+                       tree::list(tree::word(its_context), expressions_.record(few),
                                   expressions_.record(rows), expressions_.record(affected),
                                   expressions_.record(only_target(nest)), std::move(lambda)));
-        statements_.push_back({moves ? or_move(loop, std::move(all)) : std::move(all)});
+        statements_.push_back(
+            {moves ? or_move(loop, its_context, std::move(all)) : std::move(all)});
     } else if (loop.chosen) {
         statements_.push_back(
             {tree::call("rddl::for_chosen_objects<" + count + ">",
@@ -312,8 +314,9 @@ void FunctionBody::over_several_objects(const ir::Loop& loop, bool is_from_start
 // rddl::move_only_true<at_moves_>(
 //     context, state.at, rddl::tables(action.north, action.south), next.at,
 //     [&](auto& several, auto c) { return rddl::sample::valid_bernoulli(several, {0, c}, ...); },
-//     [&] { rddl::for_affected_objects<cell_count>(...); });
-tree::Expression FunctionBody::or_move(const ir::Loop& loop, tree::Expression loop_of_affected) {
+//     [&](auto& apart) { rddl::for_affected_objects<cell_count>(apart, ...); });
+tree::Expression FunctionBody::or_move(const ir::Loop& loop, const std::string& context_of_loop,
+                                       tree::Expression loop_of_affected) {
     const ir::Moves& moves = *loop.affected->moves;
     const auto before = expressions_.mark();
     const ir::Nest nest = ir::nest_of(loop);
@@ -326,13 +329,15 @@ tree::Expression FunctionBody::or_move(const ir::Loop& loop, tree::Expression lo
                      inner(1, [&] { return_value(*draw); })}};
     expressions_.leave_nest();
     expressions_.return_to(before);
-    tree::Block otherwise;
-    otherwise.push_back({std::move(loop_of_affected)});
+    tree::Block body;
+    body.push_back({std::move(loop_of_affected)});
+    tree::Expression otherwise{
+        tree::Lambda{{{tree::Declared{"auto&", context_of_loop}}}, std::move(body)}};
     return tree::call(
         "rddl::move_only_true<" + expressions_.unit().names.buffers[moves.table.index] + ">",
         tree::list(tree::word("context"), expressions_.record(loop.affected->few),
                    tree::call("rddl::tables", tables(moves.choices)), expressions_.record(target),
-                   std::move(drawing), tree::Expression{tree::Lambda{{}, std::move(otherwise)}}));
+                   std::move(drawing), std::move(otherwise)));
 }
 
 // The parameters of a body that one environment of a pack may run: places and moves get names.

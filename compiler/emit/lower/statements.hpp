@@ -42,7 +42,8 @@ class FunctionBody {
     // A loop that quantifies may start where no object has been seen: nothing is read then.
     void over_several_objects(const ir::Loop& loop, bool is_from_start = false);
     // The loop, if the only true bool of a table does not say what it fills its table with.
-    tree::Expression or_move(const ir::Loop& loop, tree::Expression loop_of_affected);
+    tree::Expression or_move(const ir::Loop& loop, const std::string& context_of_loop,
+                             tree::Expression loop_of_affected);
     tree::Expressions numbers_near(const ir::Clearances& clearances);
     tree::Expression near_object(const ir::Clearances& clearances, const std::string& count,
                                  tree::Expression lambda);

@@ -53,6 +53,50 @@ inline __m512i rows_of_columns(__m512i columns) {
     return permuted_bytes(squares, [](int i) { return i % 8 * 8 + i / 8; });
 }
 
+// Quarters of two registers, the first of two numbers from `a` and the others from `b`.
+template <int numbers>
+[[gnu::always_inline]] inline __m512i quarters_of(__m512i a, __m512i b) {
+    return _mm512_maskz_shuffle_i64x2(0xFF, a, b, numbers);
+}
+// The registers are 8 rows of 64 bytes; their 64 columns of 8 bytes, one after the other.
+struct RegistersOfRows {
+    __m512i of[8];
+};
+[[gnu::always_inline]] inline RegistersOfRows columns_of_bytes(const RegistersOfRows& rows) {
+    constexpr int even = 0x88, odd = 0xDD;
+    RegistersOfRows columns;
+    // Words first: those with even numbers, then the others.
+    for (int first = 0; first < 2; ++first) {
+        const auto pairs = [&](int i) __attribute__((always_inline)) {
+            return first == 0 ? _mm512_maskz_unpacklo_epi64(0xFF, rows.of[i], rows.of[i + 1])
+                              : _mm512_maskz_unpackhi_epi64(0xFF, rows.of[i], rows.of[i + 1]);
+        };
+        const __m512i a = pairs(0), b = pairs(2), c = pairs(4), d = pairs(6);
+        const __m512i ab = quarters_of<even>(a, b), cd = quarters_of<even>(c, d),
+                      other_ab = quarters_of<odd>(a, b), other_cd = quarters_of<odd>(c, d);
+        columns.of[first] = quarters_of<even>(ab, cd);
+        columns.of[first + 2] = quarters_of<even>(other_ab, other_cd);
+        columns.of[first + 4] = quarters_of<odd>(ab, cd);
+        columns.of[first + 6] = quarters_of<odd>(other_ab, other_cd);
+    }
+    for (__m512i& some : columns.of)
+        some = permuted_bytes(some, [](int i) { return i % 8 * 8 + i / 8; });
+    return columns;
+}
+// `count` <= 64 columns of 64 bits as 64 rows of `count` bits, one after the other; the other bits
+// of the rows are 0.
+template <int count>
+[[gnu::always_inline]] inline RegistersOfRows rows_of_words(const std::uint64_t* columns) {
+    RegistersOfRows squares;
+    for (int i = 0; i < 8; ++i) {
+        const auto there = static_cast<std::uint8_t>((~std::uint64_t{0} >> (64 - count)) >> 8 * i);
+        squares.of[i] = there == 0
+                            ? _mm512_setzero_si512()
+                            : columns_of_rows(_mm512_maskz_loadu_epi64(there, columns + 8 * i));
+    }
+    return columns_of_bytes(squares);
+}
+
 // `count` <= 64 columns of 16 bits as 16 rows of `count` bits in two registers; the other bits of
 // the rows are 0. A register of squares has those of the upper 8 rows behind those of the lower 8.
 struct TwoRegisters {

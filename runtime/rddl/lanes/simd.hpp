@@ -445,7 +445,7 @@ constexpr std::uint64_t bytes_of_bits(std::uint64_t bits) {
 
 typedef std::uint64_t TwoWords __attribute__((vector_size(16)));
 
-#ifdef RDDL_SIMD_AVX512
+#ifdef __AVX2__
 // 0 < `count` <= 16 bytes, in the largest parts of 16, 8, 4, 2 and 1; zeros behind them.
 [[gnu::always_inline]] inline __m128i load_parts(const void* bytes, int count) {
     if (count == 16) return _mm_loadu_si128(static_cast<const __m128i_u*>(bytes));
@@ -463,20 +463,6 @@ typedef std::uint64_t TwoWords __attribute__((vector_size(16)));
     load(std::uint8_t{});
     return (__m128i)words;
 }
-// The same of 0 < `count` <= 64 bytes, with any values behind them.
-[[gnu::always_inline]] inline __m512i load_many_parts(const void* bytes, int count) {
-    const auto part = [&](int i) __attribute__((always_inline)) {
-        const int rest = count - i;
-        if (rest <= 0) return __m128i{};
-        return load_parts(static_cast<const char*>(bytes) + i, rest < 16 ? rest : 16);
-    };
-    if (count <= 16) return _mm512_castsi128_si512(part(0));
-    const auto half = [&](int i) __attribute__((always_inline)) {
-        return _mm256_inserti128_si256(_mm256_castsi128_si256(part(i)), part(i + 16), 1);
-    };
-    const __m512i first = _mm512_maskz_inserti64x4(0xF, __m512i{}, half(0), 0);
-    return count <= 32 ? first : _mm512_maskz_inserti64x4(0xFF, first, half(32), 1);
-}
 [[gnu::always_inline]] inline void store_parts(void* bytes, __m128i values, int count) {
     if (count == 16) return _mm_storeu_si128(static_cast<__m128i_u*>(bytes), values);
     int i = 0;
@@ -491,6 +477,22 @@ typedef std::uint64_t TwoWords __attribute__((vector_size(16)));
     store(std::uint16_t{});
     store(std::uint8_t{});
 }
+#endif
+#ifdef RDDL_SIMD_AVX512
+// 0 < `count` <= 64 bytes in such parts, with any values behind them.
+[[gnu::always_inline]] inline __m512i load_many_parts(const void* bytes, int count) {
+    const auto part = [&](int i) __attribute__((always_inline)) {
+        const int rest = count - i;
+        if (rest <= 0) return __m128i{};
+        return load_parts(static_cast<const char*>(bytes) + i, rest < 16 ? rest : 16);
+    };
+    if (count <= 16) return _mm512_castsi128_si512(part(0));
+    const auto half = [&](int i) __attribute__((always_inline)) {
+        return _mm256_inserti128_si256(_mm256_castsi128_si256(part(i)), part(i + 16), 1);
+    };
+    const __m512i first = _mm512_maskz_inserti64x4(0xF, __m512i{}, half(0), 0);
+    return count <= 32 ? first : _mm512_maskz_inserti64x4(0xFF, first, half(32), 1);
+}
 [[gnu::always_inline]] inline void store_many_parts(void* bytes, std::uint64_t bits, int count) {
     if (count == 64) return _mm512_storeu_si512(bytes, _mm512_maskz_set1_epi8(bits, 1));
 #pragma GCC unroll 4
@@ -498,6 +500,31 @@ typedef std::uint64_t TwoWords __attribute__((vector_size(16)));
         store_parts(static_cast<char*>(bytes) + i,
                     _mm_maskz_set1_epi8(static_cast<__mmask16>(bits >> i), 1),
                     count - i < 16 ? count - i : 16);
+}
+#elif defined(__AVX2__)
+// A bit for each byte that is not 0; and the bytes of 0 and 1 for such bits.
+[[gnu::always_inline]] inline std::uint64_t nonzero_bits(__m128i bytes) {
+    const int zero = _mm_movemask_epi8(_mm_cmpeq_epi8(bytes, _mm_setzero_si128()));
+    return static_cast<std::uint64_t>(zero ^ 0xFFFF);
+}
+[[gnu::always_inline]] inline std::uint64_t nonzero_bits(__m256i bytes) {
+    const int zero = _mm256_movemask_epi8(_mm256_cmpeq_epi8(bytes, _mm256_setzero_si256()));
+    return std::uint64_t{~static_cast<std::uint32_t>(zero)};
+}
+[[gnu::always_inline]] inline __m128i bytes_of_few_bits(std::uint64_t bits) {
+    const __m128i own_bit = _mm_set1_epi64x(static_cast<std::int64_t>(0x8040201008040201));
+    const __m128i own_byte = _mm_set_epi64x(0x0101010101010101, 0);
+    const __m128i all = _mm_set1_epi16(static_cast<std::int16_t>(bits));
+    const __m128i own = _mm_and_si128(_mm_shuffle_epi8(all, own_byte), own_bit);
+    return _mm_and_si128(_mm_cmpeq_epi8(own, own_bit), _mm_set1_epi8(1));
+}
+[[gnu::always_inline]] inline __m256i bytes_of_many_bits(std::uint64_t bits) {
+    const __m256i own_bit = _mm256_set1_epi64x(static_cast<std::int64_t>(0x8040201008040201));
+    const __m256i own_byte =
+        _mm256_set_epi64x(0x0303030303030303, 0x0202020202020202, 0x0101010101010101, 0);
+    const __m256i all = _mm256_set1_epi32(static_cast<std::int32_t>(bits));
+    const __m256i own = _mm256_and_si256(_mm256_shuffle_epi8(all, own_byte), own_bit);
+    return _mm256_and_si256(_mm256_cmpeq_epi8(own, own_bit), _mm256_set1_epi8(1));
 }
 #endif
 
@@ -511,12 +538,11 @@ typedef std::uint64_t TwoWords __attribute__((vector_size(16)));
     std::uint64_t bits = 0;
     int i = 0;
 #ifdef __AVX2__
-    for (; i + 16 <= count; i += 16) {
-        const __m128i values = _mm_loadu_si128(
-            reinterpret_cast<const __m128i_u*>(static_cast<const char*>(bytes) + i));
-        const int zero = _mm_movemask_epi8(_mm_cmpeq_epi8(values, _mm_setzero_si128()));
-        bits |= static_cast<std::uint64_t>(zero ^ 0xFFFF) << i;
-    }
+    for (; i + 16 <= count; i += 16)
+        bits |= nonzero_bits(load_parts(static_cast<const char*>(bytes) + i, 16)) << i;
+    // By way of a word, the last ones would be loaded from the stack.
+    if (__builtin_constant_p(count) && i < count)
+        return bits | nonzero_bits(load_parts(static_cast<const char*>(bytes) + i, count - i)) << i;
 #endif
     for (; i < count; i += 8) {
         std::uint64_t chunk = 0;
@@ -561,14 +587,10 @@ template <int n>
 #else
     int i = 0;
 #ifdef __AVX2__
-    const __m128i own_bit = _mm_set1_epi64x(static_cast<std::int64_t>(0x8040201008040201));
-    const __m128i own_byte = _mm_set_epi64x(0x0101010101010101, 0);
-    for (; i + 16 <= count; i += 16) {
-        const __m128i all = _mm_set1_epi16(static_cast<std::int16_t>(bits >> i));
-        const __m128i own = _mm_and_si128(_mm_shuffle_epi8(all, own_byte), own_bit);
-        const __m128i values = _mm_and_si128(_mm_cmpeq_epi8(own, own_bit), _mm_set1_epi8(1));
-        _mm_storeu_si128(reinterpret_cast<__m128i_u*>(static_cast<char*>(bytes) + i), values);
-    }
+    for (; i + 16 <= count; i += 16)
+        store_parts(static_cast<char*>(bytes) + i, bytes_of_few_bits(bits >> i), 16);
+    if (__builtin_constant_p(count) && i < count)
+        return store_parts(static_cast<char*>(bytes) + i, bytes_of_few_bits(bits >> i), count - i);
 #endif
     for (; i < count; i += 8) {
         const std::uint64_t chunk = bytes_of_bits(bits >> i & 0xFF);

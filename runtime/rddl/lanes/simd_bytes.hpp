@@ -21,12 +21,8 @@ template <int size>
     __m256i chosen = _mm256_setzero_si256();
 #pragma GCC unroll 8
     for (int i = 0; i < size; i += 16) {
-        // The last ones overlap those before: a part would be loaded by way of the stack.
-        const int first = size < 16 || i + 16 <= size ? i : size - 16;
-        __m128i some = _mm_setzero_si128();
-        __builtin_memcpy(&some, table + first, size < 16 ? size : 16);
-        const __m256i from_first =
-            _mm256_sub_epi8(places, _mm256_set1_epi8(static_cast<char>(first)));
+        const __m128i some = load_parts(table + i, size - i < 16 ? size - i : 16);
+        const __m256i from_first = _mm256_sub_epi8(places, _mm256_set1_epi8(static_cast<char>(i)));
         chosen = _mm256_or_si256(
             chosen, _mm256_shuffle_epi8(_mm256_broadcastsi128_si256(some),
                                         _mm256_adds_epu8(from_first, _mm256_set1_epi8(0x70))));
@@ -44,6 +40,15 @@ template <class V, int n>
     V values{};
 #ifdef RDDL_SIMD_AVX512
     if constexpr (n < register_bytes) return reinterpret<V>(load_many_parts(from, n));
+#elif defined(__AVX2__)
+    if constexpr (n < register_bytes) {
+        const auto part = [&](int i) __attribute__((always_inline)) {
+            const int rest = n - i < 16 ? n - i : 16;
+            return rest > 0 ? load_parts(static_cast<const char*>(from) + i, rest)
+                            : _mm_setzero_si128();
+        };
+        return reinterpret<V>(_mm256_set_m128i(part(16), part(0)));
+    }
 #endif
     __builtin_memcpy(&values, from, n);
     return values;
@@ -75,6 +80,14 @@ template <int n, class V>
         store(std::integral_constant<int, 48>());
         return;
     }
+#elif defined(__AVX2__)
+    if constexpr (n < register_bytes) {
+        const auto all = reinterpret<__m256i>(values);
+        store_parts(to, _mm256_castsi256_si128(all), n < 16 ? n : 16);
+        if constexpr (n > 16)
+            store_parts(static_cast<char*>(to) + 16, _mm256_extracti128_si256(all, 1), n - 16);
+        return;
+    }
 #endif
     __builtin_memcpy(to, &values, n);
 }
@@ -84,6 +97,8 @@ template <class V>
 [[gnu::always_inline]] inline std::uint64_t nonzero_bytes(V bytes) {
 #ifdef RDDL_SIMD_AVX512
     return _mm512_test_epi8_mask(reinterpret<__m512i>(bytes), reinterpret<__m512i>(bytes));
+#elif defined(__AVX2__)
+    return nonzero_bits(reinterpret<__m256i>(bytes));
 #else
     return bits_of_bytes(&bytes, register_bytes);
 #endif
@@ -92,6 +107,8 @@ template <class V>
 [[gnu::always_inline]] inline V bytes_for_bits(std::uint64_t bits) {
 #ifdef RDDL_SIMD_AVX512
     return reinterpret<V>(_mm512_maskz_set1_epi8(bits, 1));
+#elif defined(__AVX2__)
+    return reinterpret<V>(bytes_of_many_bits(bits));
 #else
     V bytes;
     store_as_bytes<register_bytes>(bits, &bytes, register_bytes);
@@ -203,6 +220,18 @@ template <int count>
     add(std::uint16_t{});
     add(std::uint8_t{});
     return rest != 0;
+}
+// The same of the first `count` bytes of a register.
+template <int count, class V>
+[[gnu::always_inline]] inline bool is_any_byte(const V& bytes) {
+#ifdef RDDL_SIMD_AVX512
+    if constexpr (count % 2 == 0) {
+        constexpr std::uint32_t there = ~std::uint32_t{0} >> (32 - count / 2);
+        const auto pairs = reinterpret<__m512i>(bytes);
+        return (_mm512_test_epi16_mask(pairs, pairs) & there) != 0;
+    }
+#endif
+    return is_any_stored_byte<count>(&bytes);
 }
 // Whether one byte is not 0 in all of these rows of bytes, which are 0 or 1.
 template <int count, class... Rows>

@@ -61,6 +61,22 @@ inline constexpr bool has_certain_chances = [] {
     return false;
 }();
 
+// The objects of a table whose probability is such, in row-major order.
+template <const auto& table, class Test>
+constexpr auto objects_where(Test test) {
+    std::array<bool, count_of<table>> bools{};
+    for (std::size_t i = 0; i < bools.size(); ++i) bools[i] = test(element_at(table, i));
+    return bools;
+}
+template <const auto& table>
+inline constexpr auto random_objects = objects_where<table>([](RealOf<table> p) {
+    return !is_certain(p);
+});
+template <const auto& table>
+inline constexpr auto always_drawn = objects_where<table>([](RealOf<table> p) {
+    return is_certain(p) && p > 0;
+});
+
 // The pairs of neighbours of which one at least needs a random number, a register of pairs after
 // the other; few pairs have a small register. Lanes behind the last pair repeat pair 0, and never
 // draw true.

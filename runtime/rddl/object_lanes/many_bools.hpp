@@ -146,6 +146,17 @@ RDDL_INLINE void store_many(const ManyBools<Bool, n>& values, Bool* to) {
     });
 }
 
+// Whether one is true.
+template <int lanes, int n>
+RDDL_INLINE bool any_of_many(const ManyBools<Mask<lanes>, n>& values) {
+    bool is_any = false;
+    ManyBools<Mask<lanes>, n>::for_each_part([&]<int p, int count>() RDDL_INLINE_LAMBDA {
+        constexpr int bytes = count * static_cast<int>(sizeof(Mask<lanes>));
+        is_any |= simd::is_any_byte<bytes>(values.part[p]);
+    });
+    return is_any;
+}
+
 // Bools that all environments share.
 template <class Bool, int n>
 RDDL_INLINE ManyBools<Bool, n> spread_many(const bool* from) {
@@ -282,6 +293,71 @@ RDDL_INLINE ManyBools<Mask<lanes>, n> choose_many(const Mask<lanes>* table, cons
         return many_bools::gathered<Vector, size, count>(table, places + p * Many::part_width);
     });
 }
+
+#if defined(__AVX2__) && !defined(__AVX512VBMI__)
+// Places that the compiler knows, of the objects of one register after the other: for each part of
+// 16 bytes of a table, where those in it are; 0x80 for the others, for which a permutation gives
+// zero.
+template <const auto& places, std::int64_t size>
+struct PlacesByPart {
+    static constexpr auto count = static_cast<std::size_t>(
+        rddl::detail::element_count<std::remove_cvref_t<decltype(places)>>);
+    static constexpr std::size_t part_count = (size + 15) / 16, width = simd::register_bytes;
+    struct alignas(width) Part {
+        std::array<std::uint8_t, width> of;
+        bool has_some;
+    };
+    static constexpr auto of_objects = [] {
+        std::array<std::array<Part, part_count>, (count + width - 1) / width> all{};
+        for (auto& parts : all)
+            for (Part& part : parts) part.of.fill(0x80);
+        for (std::size_t i = 0; i < count; ++i) {
+            const auto place = static_cast<std::size_t>(rddl::detail::element_at(places, i));
+            Part& part = all[i / width][place / 16];
+            part.of[i % width] = static_cast<std::uint8_t>(place % 16);
+            part.has_some = true;
+        }
+        return all;
+    }();
+};
+// The bytes that have these places among 16.
+RDDL_ALWAYS_INLINE auto permuted(__m128i some, const void* places) {
+#ifdef RDDL_SIMD_AVX512
+    return _mm512_maskz_shuffle_epi8(~std::uint64_t{0}, _mm512_maskz_broadcast_i32x4(0xFFFF, some),
+                                     _mm512_load_si512(places));
+#else
+    return _mm256_shuffle_epi8(_mm256_broadcastsi128_si256(some),
+                               _mm256_load_si256(static_cast<const __m256i*>(places)));
+#endif
+}
+template <const auto& places, std::int64_t size, int n>
+RDDL_INLINE ManyBools<bool, n> choose_many_by_parts(const bool* table) {
+    using Many = ManyBools<bool, n>;
+    using Places = PlacesByPart<places, size>;
+    using Vector = typename Many::Vector;
+    return Many::of_parts([&]<int p, int>() RDDL_INLINE_LAMBDA {
+        Vector chosen{};
+        const auto add = [&]<std::size_t i>() RDDL_INLINE_LAMBDA {
+            constexpr auto& part = Places::of_objects[p][i];
+            if constexpr (part.has_some) {
+                constexpr int rest = static_cast<int>(size) - static_cast<int>(16 * i);
+                const __m128i some = simd::load_parts(table + 16 * i, rest < 16 ? rest : 16);
+                chosen |= simd::reinterpret<Vector>(permuted(some, part.of.data()));
+            }
+        };
+        [&]<std::size_t... i>(std::index_sequence<i...>) RDDL_INLINE_LAMBDA {
+            (add.template operator()<i>(), ...);
+        }
+        (std::make_index_sequence<Places::part_count>());
+        return chosen;
+    });
+}
+inline constexpr bool chooses_by_parts = true;
+#else
+inline constexpr bool chooses_by_parts = false;
+template <const auto& places, std::int64_t size, int n>
+ManyBools<bool, n> choose_many_by_parts(const bool* table) = delete;
+#endif
 
 // The elements of a table of `size` that have these places.
 template <int n, std::int64_t size, class Bool, class Place>

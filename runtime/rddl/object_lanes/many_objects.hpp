@@ -77,9 +77,11 @@ RDDL_INLINE auto at_places(const Table& table, const ManyObjects<n, L>& objects)
     using Many = ManyBools<typename L::Bool, n>;
     const auto* const elements = &detail::first_part<0>(table);
     const auto* const first = &detail::first_part<0>(places) + objects.first;
-    constexpr bool are_few =
-        detail::Nested<std::remove_cvref_t<decltype(places)>>::count <= most_places_in_lines;
-    if constexpr (L::width == 1 || !are_few)
+    constexpr auto place_count = detail::Nested<std::remove_cvref_t<decltype(places)>>::count;
+    constexpr bool are_few = place_count <= most_places_in_lines;
+    if constexpr (L::width == 1 && chooses_by_parts && place_count == n)
+        return choose_many_by_parts<places, detail::Nested<Table>::count, n>(elements);
+    else if constexpr (L::width == 1 || !are_few)
         return choose_many<n, detail::Nested<Table>::count>(elements, first);
     else
         return choose_many<n, detail::Nested<Table>::count>(
@@ -172,10 +174,6 @@ template <class Probability, int n>
 inline constexpr bool are_by_pairs = false;
 template <const auto& table, int n>
 inline constexpr bool are_by_pairs<ChancesOfMany<table>, n> = count_of<table> == n;
-template <class Probability>
-inline constexpr bool may_be_certain = false;
-template <const auto& table>
-inline constexpr bool may_be_certain<ChancesOfMany<table>> = has_certain_chances<table>;
 
 // Which of 64 objects of one environment, from `first` on, draw a number below p: of those that are
 // wanted. The numbers are made for 16 neighbours at once.
@@ -221,24 +219,30 @@ RDDL_INLINE ManyBools<bool, n> drawn(Context<ScalarOf<R>>& context, Place place,
     });
 }
 
+// Mostly few objects of a register draw, or none: then one test serves all of them.
 template <int lanes, class R, int n, class Probability>
 RDDL_INLINE ManyBools<Mask<lanes>, n> drawn(Context<Pack<lanes, R>>& context, Place place,
                                             const ManyBools<Mask<lanes>, n>& wanted,
                                             const Probability& p) {
+    if (!any_of_many(wanted)) return wanted;
     std::array<Mask<lanes>, static_cast<std::size_t>(n)> masks;
     store_many(wanted, masks.data());
     for (int k = 0; k < n; ++k) {
         Mask<lanes>& mask = masks[static_cast<std::size_t>(k)];
         if (!any(mask)) continue;
-        const auto& chance = real_of(in_memory(p), k);
-        if (may_be_certain<Probability> && is_certain(chance)) {
-            mask = mask && chance > 0;
-            continue;
-        }
         const Place of_object(place.site, place.index + k, place.series);
-        mask = uniform_below(context, of_object, mask, chance);
+        mask = uniform_below(context, of_object, mask, real_of(in_memory(p), k));
     }
     return load_many<n>(masks.data());
+}
+template <int lanes, class R, int n, const auto& table>
+requires(has_certain_chances<table>) RDDL_INLINE ManyBools<Mask<lanes>, n> drawn(
+    Context<Pack<lanes, R>>& context, Place place, const ManyBools<Mask<lanes>, n>& wanted,
+    const ChancesOfMany<table>& p) {
+    using Many = ManyBools<Mask<lanes>, n>;
+    const Many random = spread_many<Mask<lanes>, n>(random_objects<table>.data() + p.first);
+    const Many always = spread_many<Mask<lanes>, n>(always_drawn<table>.data() + p.first);
+    return drawn(context, place, wanted && random, in_memory(p)) || (wanted && always);
 }
 
 }  // namespace detail

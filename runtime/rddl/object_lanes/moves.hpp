@@ -46,13 +46,13 @@ RDDL_INLINE Index bits_of_choices(const std::tuple<Choices...>& choices) {
 
 // Fills `target` with what `moves`, a constant table of MoveCodes, has for the place of the only
 // true bool of `few` and the bits of the choices. draw(context, object) draws a bool, and nothing
-// is true where nothing was. In packs, and where several are true or a code says so, otherwise()
-// fills it.
+// is true where nothing was. In packs, and where several are true or a code says so,
+// otherwise(context) fills it.
 template <const auto& moves, int lanes, class R, class Few, class Choices, class Table, class Draw,
           class Otherwise>
-RDDL_INLINE void move_only_true(Context<Pack<lanes, R>>&, const Few&, const Choices&, Table&,
-                                Draw&&, Otherwise&& otherwise) {
-    otherwise();
+RDDL_INLINE void move_only_true(Context<Pack<lanes, R>>& context, const Few&, const Choices&,
+                                Table&, Draw&&, Otherwise&& otherwise) {
+    otherwise(context);
 }
 template <const auto& moves, class R, class Few, class Choices, class Table, class Draw,
           class Otherwise>
@@ -73,11 +73,13 @@ RDDL_INLINE void move_only_true(Context<ScalarOf<R>>& context, const Few& few,
         const Index object = code < count ? code : code - count;
         detail::first_element(target)[object] = code < count || draw(alone, OneObject{object});
     } else if (code == codes.other()) {
-        // A call of its own, which leaves registers to the step.
+        // A call of its own, with a context of its own, which leaves registers to the step.
+        Context<ScalarOf<R>> its_context = context;
         [&]() __attribute__((noinline, cold)) {
-            otherwise();
+            otherwise(its_context);
         }
         ();
+        context = its_context;
     }
 }
 

@@ -1,20 +1,17 @@
-// Matrices of 8 rows and 64 columns of bits, in registers: rows become columns and back, and
-// columns become masks over the rows.
+// Matrices of bits, transposed by squares of 8 x 8: masks of lanes, and the bools of rows as bits.
 #pragma once
 
 #include <rddl/lanes/bit_squares.hpp>
 #include <rddl/lanes/pack.hpp>
 #include <rddl/lanes/simd.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
-#include <utility>
 
-namespace rddl::inline RDDL_SIMD_LEVEL {
-
-namespace bit_matrix {
+namespace rddl::inline RDDL_SIMD_LEVEL::bit_matrix {
 
 // A matrix of 8 x 64 bits by rows, and by columns, row 0 lowest.
 #ifdef RDDL_SIMD_AVX512
@@ -84,6 +81,60 @@ inline BitRows rows_of(const BitColumns& columns) {
         shuffled_bytes(two_rows_together, &simd::sources<std::uint8_t, 64, decltype(bytes)>));
 }
 
+#elif defined(__AVX2__)
+
+// 8 words in two registers.
+struct Square {
+    __m256i low, high;
+};
+RDDL_ALWAYS_INLINE Square load_square(const void* from) {
+    const auto* const registers = static_cast<const __m256i_u*>(from);
+    return {_mm256_loadu_si256(registers), _mm256_loadu_si256(registers + 1)};
+}
+RDDL_ALWAYS_INLINE void store_square(const Square& square, void* to) {
+    auto* const registers = static_cast<__m256i_u*>(to);
+    _mm256_storeu_si256(registers, square.low);
+    _mm256_storeu_si256(registers + 1, square.high);
+}
+// Byte i of word k becomes byte k of word i.
+RDDL_ALWAYS_INLINE Square bytes_exchanged(const Square& words) {
+    const __m256i in_turn = _mm256_broadcastsi128_si256(
+        _mm_setr_epi8(0, 8, 1, 9, 2, 10, 3, 11, 4, 12, 5, 13, 6, 14, 7, 15));
+    const __m256i low = _mm256_shuffle_epi8(words.low, in_turn),
+                  high = _mm256_shuffle_epi8(words.high, in_turn);
+    const __m256i first = _mm256_permute2x128_si256(low, high, 0x20),
+                  second = _mm256_permute2x128_si256(low, high, 0x31);
+    const __m256i halves = _mm256_setr_epi32(0, 4, 1, 5, 2, 6, 3, 7);
+    return {_mm256_permutevar8x32_epi32(_mm256_unpacklo_epi16(first, second), halves),
+            _mm256_permutevar8x32_epi32(_mm256_unpackhi_epi16(first, second), halves)};
+}
+RDDL_ALWAYS_INLINE Square all_transposed(const Square& squares) {
+    using Four = std::uint64_t __attribute__((vector_size(32)));
+    return {simd::reinterpret<__m256i>(transposed(simd::reinterpret<Four>(squares.low))),
+            simd::reinterpret<__m256i>(transposed(simd::reinterpret<Four>(squares.high)))};
+}
+
+// Words in registers of their own would be stored one by one and loaded together, which is slow.
+RDDL_ALWAYS_INLINE Square square_of(const BitRows& rows) {
+    const auto four = [&](std::size_t i) RDDL_INLINE_LAMBDA {
+        const auto word = [&](std::size_t k) RDDL_INLINE_LAMBDA {
+            return static_cast<std::int64_t>(rows[i + k]);
+        };
+        return _mm256_setr_epi64x(word(0), word(1), word(2), word(3));
+    };
+    return {four(0), four(4)};
+}
+RDDL_ALWAYS_INLINE BitColumns columns_of(const BitRows& rows) {
+    BitColumns columns;
+    store_square(all_transposed(bytes_exchanged(square_of(rows))), &columns);
+    return columns;
+}
+RDDL_ALWAYS_INLINE BitRows rows_of(const BitColumns& columns) {
+    BitRows rows;
+    store_square(bytes_exchanged(all_transposed(load_square(&columns))), &rows);
+    return rows;
+}
+
 #else
 
 inline BitColumns columns_of(const BitRows& rows) {
@@ -107,6 +158,76 @@ inline BitRows rows_of(const BitColumns& columns) {
     return rows;
 }
 
+#endif
+
+#if defined(__AVX2__) && !defined(RDDL_SIMD_AVX512)
+// Masks of 16 lanes: bytes of pairs, and pairs of bytes.
+RDDL_ALWAYS_INLINE BitColumns lanes_of_pairs(const std::uint16_t* masks, int count, int lane) {
+    const auto sixteen = [&](int first) RDDL_INLINE_LAMBDA {
+        const auto bytes_of = [&](int k) RDDL_INLINE_LAMBDA {
+            if (k >= count) return __m128i{};
+            const int rest = count - k;
+            const __m128i bits = simd::load_parts(masks + k, rest < 8 ? 2 * rest : 16);
+            return _mm_and_si128(_mm_srl_epi16(bits, _mm_cvtsi32_si128(lane)),
+                                 _mm_set1_epi16(0xFF));
+        };
+        return first < count ? _mm_packus_epi16(bytes_of(first), bytes_of(first + 8)) : __m128i{};
+    };
+    BitColumns columns;
+    store_square(
+        {_mm256_set_m128i(sixteen(16), sixteen(0)), _mm256_set_m128i(sixteen(48), sixteen(32))},
+        &columns);
+    return columns;
+}
+RDDL_ALWAYS_INLINE void store_pairs(const BitColumns& low, const BitColumns& high, int count,
+                                    std::uint16_t* masks) {
+    for (int k = 0; k < count; k += 8) {
+        const auto bytes_in = [k](const BitColumns& columns) RDDL_INLINE_LAMBDA {
+            return _mm_loadl_epi64(
+                reinterpret_cast<const __m128i_u*>(&columns[static_cast<std::size_t>(k)]));
+        };
+        const __m128i bits = _mm_unpacklo_epi8(bytes_in(low), bytes_in(high));
+        const int rest = count - k;
+        simd::store_parts(masks + k, bits, rest < 8 ? 2 * rest : 16);
+    }
+}
+
+// Masks of 64 lanes.
+RDDL_ALWAYS_INLINE void store_words(const std::array<BitColumns, 8>& columns, int count,
+                                    std::uint64_t* masks) {
+    for (int k = 0; k < count; k += 8) {
+        BitRows some_words;
+        for (std::size_t i = 0; i < 8; ++i)
+            std::memcpy(&some_words[i], &columns[i][static_cast<std::size_t>(k)],
+                        sizeof some_words[i]);
+        const Square square = bytes_exchanged(square_of(some_words));
+        if (k + 8 <= count) {
+            store_square(square, masks + k);
+        } else {
+            store_square(square, &some_words);
+            std::copy_n(some_words.begin(), count - k, masks + k);
+        }
+    }
+}
+// The bits that `count` masks have in each lane, that of the first one lowest.
+template <int count>
+RDDL_INLINE std::array<BitRows, 8> rows_of_words(const std::uint64_t* masks) {
+    std::array<BitRows, 8> squares{};  // of 8 masks
+    for (int i = 0; 8 * i < count; ++i) {
+        BitRows some{};
+        std::copy_n(masks + 8 * i, std::min(8, count - 8 * i), some.begin());
+        const Square by_lanes = 8 * i + 8 <= count ? load_square(masks + 8 * i) : square_of(some);
+        store_square(all_transposed(bytes_exchanged(by_lanes)),
+                     &squares[static_cast<std::size_t>(i)]);
+    }
+    std::array<BitRows, 8> rows;
+    for (std::size_t g = 0; g < 8; ++g) {
+        const BitRows some_words{squares[0][g], squares[1][g], squares[2][g], squares[3][g],
+                                 squares[4][g], squares[5][g], squares[6][g], squares[7][g]};
+        store_square(bytes_exchanged(square_of(some_words)), &rows[g]);
+    }
+    return rows;
+}
 #endif
 
 // The lanes [lane, lane + 8) of `count` <= 64 masks, a column each; the other columns are zero.
@@ -139,45 +260,14 @@ RDDL_INLINE BitColumns lanes_of(const Mask<n>* masks, int count, int lane) {
             _mm512_set_epi64(bytes_of(56), bytes_of(48), bytes_of(40), bytes_of(32), bytes_of(24),
                              bytes_of(16), bytes_of(8), bytes_of(0)));
     }
+#elif defined(__AVX2__)
+    if constexpr (n == 16) return lanes_of_pairs(&masks->bits, count, lane);
 #endif
     BitColumns columns{};
     for (int k = 0; k < count; ++k)
         columns[static_cast<std::size_t>(k)] = static_cast<std::uint8_t>(masks[k].bits >> lane);
     return columns;
 }
-
-#ifdef RDDL_SIMD_SQUARES
-// The bytes of columns 8 * `chunk` and following, of 8 registers, as words.
-template <int chunk>
-RDDL_ALWAYS_INLINE __m512i words_of_columns(const __m512i* rows) {
-    constexpr int half = chunk / 4, in_half = chunk % 4;
-    // Registers i and i + 4 side by side; then those two with i + 1 and i + 5.
-    const auto joined = [&](int i) RDDL_INLINE_LAMBDA {
-        return _mm512_maskz_shuffle_i64x2(0xFF, rows[i], rows[i + 4], half == 0 ? 0x44 : 0xEE);
-    };
-    const auto two = [&](int i) RDDL_INLINE_LAMBDA {
-        return in_half % 2 == 0 ? _mm512_maskz_unpacklo_epi64(0xFF, joined(i), joined(i + 1))
-                                : _mm512_maskz_unpackhi_epi64(0xFF, joined(i), joined(i + 1));
-    };
-    return simd::permuted_bytes(two(0), two(2), [](int i) {
-        const int row = i % 8, column = i / 8;
-        return row % 4 / 2 * 64 + row / 4 * 32 + in_half / 2 * 16 + row % 2 * 8 + column;
-    });
-}
-template <std::size_t... chunk>
-RDDL_ALWAYS_INLINE void store_masks_of_64(const std::array<BitColumns, 8>& columns, int count,
-                                          Mask<64>* masks, std::index_sequence<chunk...>) {
-    const std::uint64_t there = ~std::uint64_t{0} >> (64 - count);
-    __m512i rows[8];
-    for (std::size_t i = 0; i < 8; ++i) rows[i] = simd::reinterpret<__m512i>(columns[i]);
-    const auto store = [&]<int k>(std::integral_constant<int, k>) RDDL_INLINE_LAMBDA {
-        if (8 * k < count)
-            _mm512_mask_storeu_epi64(masks + 8 * k, static_cast<std::uint8_t>(there >> (8 * k)),
-                                     words_of_columns<k>(rows));
-    };
-    (store(std::integral_constant<int, static_cast<int>(chunk)>()), ...);
-}
-#endif
 
 // The reverse, for all lanes: element i of `columns` has those from 8 i on.
 template <int n>
@@ -206,10 +296,19 @@ RDDL_INLINE void store_masks(const std::array<BitColumns, n / 8>& columns, int c
                    _mm512_maskz_extracti64x4_epi64(0xF, high, 1));
         return;
     }
-    if constexpr (n == 64) {
 #ifdef RDDL_SIMD_SQUARES
-        store_masks_of_64(columns, count, masks, std::make_index_sequence<8>());
-#else
+    if constexpr (n == 64) {
+        simd::RegistersOfRows bytes;
+        for (std::size_t i = 0; i < columns.size(); ++i)
+            bytes.of[i] = simd::reinterpret<__m512i>(columns[i]);
+        bytes = simd::columns_of_bytes(bytes);
+        for (int i = 0; 8 * i < count; ++i)
+            _mm512_mask_storeu_epi64(masks + 8 * i, static_cast<std::uint8_t>(there >> 8 * i),
+                                     bytes.of[i]);
+        return;
+    }
+#endif
+    if constexpr (n == 64) {
         for (int first = 0; first < count; first += 8) {
             __m512i bits = _mm512_setzero_si512();
             for (unsigned i = 0; i < 8; ++i) {
@@ -224,9 +323,11 @@ RDDL_INLINE void store_masks(const std::array<BitColumns, n / 8>& columns, int c
             _mm512_mask_storeu_epi64(masks + first, static_cast<std::uint8_t>(there >> first),
                                      bits);
         }
-#endif
         return;
     }
+#elif defined(__AVX2__)
+    if constexpr (n == 16) return store_pairs(columns[0], columns[1], count, &masks->bits);
+    if constexpr (n == 64) return store_words(columns, count, &masks->bits);
 #endif
     using Bits = typename Mask<n>::Bits;
     for (int k = 0; k < count; ++k) {
@@ -238,6 +339,4 @@ RDDL_INLINE void store_masks(const std::array<BitColumns, n / 8>& columns, int c
     }
 }
 
-}  // namespace bit_matrix
-
-}  // namespace rddl::inline RDDL_SIMD_LEVEL
+}  // namespace rddl::inline RDDL_SIMD_LEVEL::bit_matrix

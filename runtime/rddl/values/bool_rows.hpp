@@ -234,6 +234,17 @@ Lanes<std::int64_t, n> bits_in_lanes(const Mask<n>* masks) {
         bits.part[1] = simd::reinterpret<simd::Words>(rows.high);
         return ints_of(bits);
     }
+    if constexpr (n == 64) {
+        const simd::RegistersOfRows rows = simd::rows_of_words<count>(&masks->bits);
+        for (int p = 0; p < 8; ++p) bits.part[p] = simd::reinterpret<simd::Words>(rows.of[p]);
+        return ints_of(bits);
+    }
+#elif defined(__AVX2__) && !defined(RDDL_SIMD_AVX512)
+    if constexpr (n == 64) {
+        const auto rows = bit_matrix::rows_of_words<count>(&masks->bits);
+        std::memcpy(&bits.part, &rows, sizeof rows);
+        return ints_of(bits);
+    }
 #endif
     constexpr int parts = 8 / bits.part_width;
     for (int i = 0; i < n / 8; ++i) {

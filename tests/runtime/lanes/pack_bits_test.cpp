@@ -12,12 +12,10 @@
 namespace rddl {
 namespace {
 
-constexpr int width = 16;
-using Ints = Pack<width>::Int;
-using Bools = Pack<width>::Bool;
-
 // 70 bools in each lane, as two words.
-TEST(PackBits, AreThoseOfScalars) {
+template <int width>
+void expect_bits_of_scalars() {
+    using Bools = typename Pack<width>::Bool;
     constexpr std::size_t rows = 7, columns = 10;
     using Table = std::array<std::array<bool, columns>, rows>;
     std::mt19937_64 random(12);
@@ -41,9 +39,15 @@ TEST(PackBits, AreThoseOfScalars) {
         EXPECT_EQ(rddl::bits<64>(packed)[lane], static_cast<std::int64_t>(last));
     }
 }
+TEST(PackBits, AreThoseOfScalars) {
+    expect_bits_of_scalars<16>();
+    expect_bits_of_scalars<64>();
+}
 
-template <std::size_t count>
+template <std::size_t count, int width>
 void expect_spread_bits() {
+    using Ints = typename Pack<width>::Int;
+    using Bools = typename Pack<width>::Bool;
     std::mt19937_64 random(count);
     Ints bits;
     for (int lane = 0; lane < width; ++lane) bits.set(lane, static_cast<std::int64_t>(random()));
@@ -63,10 +67,13 @@ void expect_spread_bits() {
 }
 
 TEST(PackBits, SpreadBitsOverBools) {
-    expect_spread_bits<1>();
-    expect_spread_bits<20>();
-    expect_spread_bits<33>();
-    expect_spread_bits<64>();
+    expect_spread_bits<1, 16>();
+    expect_spread_bits<20, 16>();
+    expect_spread_bits<33, 16>();
+    expect_spread_bits<64, 16>();
+    expect_spread_bits<1, 64>();
+    expect_spread_bits<20, 64>();
+    expect_spread_bits<64, 64>();
 }
 
 }  // namespace

@@ -139,11 +139,13 @@ constexpr auto chances_of = [] {
         table[i] = i % every == every / 2 ? static_cast<R>(i % 5 + 1) / 6 : R(i % 3 == 0);
     return table;
 }();
+// Draws of one object of each `apart`.
 template <class L, std::size_t n, std::size_t every>
-void expect_the_same_draws() {
+void expect_the_same_draws(std::size_t apart = 1) {
     static constexpr const auto& table = chances_of<n, every, typename L::Element>;
     std::array<typename L::Bool, n> wanted, expected, result;
-    for (std::size_t i = 0; i < n; ++i) wanted[i] = bool_at<L>(i);
+    for (std::size_t i = 0; i < n; ++i)
+        wanted[i] = i % apart == 0 ? bool_at<L>(i) : typename L::Bool(false);
     Context<L> context = context_of_lanes<L>(), same_context = context_of_lanes<L>();
     for_many_objects<n>(context, [&](auto& several, auto x) {
         elements(expected, x) = branch(
@@ -179,6 +181,9 @@ TEST(ManyObjects, DrawWithChancesSomeOfWhichAreCertain) {
     expect_the_same_draws<Pack<64>, 40, 3>();
     expect_the_same_draws<Pack<16>, 5, 2>();
     expect_the_same_draws<Pack<64, float>, 7, 3>();
+    expect_the_same_draws<Pack<64>, 90, 3>(40);
+    expect_the_same_draws<Pack<64>, 90, 1>(40);
+    expect_the_same_draws<Pack<16>, 90, 3>(40);
 }
 // Few objects, and tables that each object chooses from.
 template <class L, std::size_t n, std::size_t every>

@@ -78,7 +78,7 @@ void expect_moves(const std::vector<std::size_t>& places, bool steps, bool goes_
     Context<L> context = context_of_moves<L>(), same_context = context_of_moves<L>();
     run(context, expected);
     move_only_true<ring_moves>(same_context, at_place, tables(step, back), result, draw,
-                               [&] { run(same_context, result); });
+                               [&](Context<L>& its_context) { run(its_context, result); });
     for (std::size_t i = 0; i < ring; ++i)
         for (int lane = 0; lane < L::width; ++lane)
             EXPECT_EQ(get_lane(expected[i], lane), get_lane(result[i], lane)) << i;
