@@ -88,6 +88,10 @@ struct RealPack {
     friend RealPack operator/(RealPack a, RealPack b) {
         return in_each_lane([&](auto i) { return a.lanes[i] / b.lanes[i]; });
     }
+    friend RealPack first_if_even(BitPack bits, RealPack a, RealPack b) {
+        return in_each_lane(
+            [&](auto i) { return bits.lanes[i] % 2 == 0 ? a.lanes[i] : b.lanes[i]; });
+    }
     friend Mask operator==(RealPack a, RealPack b) {
         return {in_each_lane([&](auto i) { return a.lanes[i] == b.lanes[i]; })};
     }

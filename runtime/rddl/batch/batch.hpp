@@ -78,6 +78,7 @@ class Batch {
         for (int lane = lanes_of(episodes_.size() - 1); lane < width; ++lane)
             set_lane(episodes_.back().present, lane, false);
         reset(nullptr, nullptr);
+        blocks_.start_running = all_run();
     }
     Batch(const Batch& other)
         : engine_(other.engine_),
@@ -98,7 +99,9 @@ class Batch {
           workspaces_(make_workspaces()),
           team_(other.options_.thread_count),
           blocks_(blocks()),
-          views_(make_views()) {}
+          views_(make_views()) {
+        blocks_.start_running = other.blocks_.start_running;
+    }
     Batch& operator=(const Batch&) = delete;
 
     std::int64_t environment_count() const { return options_.environment_count; }
@@ -137,7 +140,7 @@ class Batch {
 
     // --------------------------------------------------------------- one environment
 
-    std::int64_t steps(std::int64_t i) const { return get_lane(at(i).steps, lane_of(i)); }
+    std::int64_t steps(std::int64_t i) const { return at(i).steps.of(lane_of(i)); }
     std::int64_t episode_number(std::int64_t i) const { return get_lane(at(i).number, lane_of(i)); }
     std::uint8_t causes(std::int64_t i) const { return at(i).ends.causes(lane_of(i)); }
 
@@ -172,7 +175,7 @@ class Batch {
     // the state is terminal or these reach the horizon.
     void set_state(std::int64_t i, const std::byte* record, const std::int64_t* steps) {
         read_record(L{}, state_columns_, record, state(i / width), lane_of(i));
-        if (steps != nullptr) set_lane(at(i).steps, lane_of(i), *steps);
+        if (steps != nullptr) at(i).steps.set(lane_of(i), *steps);
         set_lane(at(i).has_fault, lane_of(i), false);
         end_if_terminal(*engine_, at(i), only(i), state(i / width));
         if (steps != nullptr && *steps >= blocks_.horizon && !(causes(i) & RDDL_FAULTED))
@@ -447,6 +450,7 @@ class Batch {
             .environment_count = options_.environment_count,
             .horizon = options_.horizon > 0 ? options_.horizon : never,
             .autoreset = options_.autoreset,
+            .start_running = false,
             .streams = streams_.empty() ? nullptr : streams_.data(),
             .episodes = episodes_.data(),
             .states = states_[0],
@@ -456,6 +460,10 @@ class Batch {
             .action_columns = &action_columns_,
             .observation_columns = &observation_columns_,
             .action_alignment_bits = static_cast<std::uintptr_t>(action_columns_.alignment - 1)};
+    }
+
+    bool all_run() const {
+        return std::ranges::none_of(episodes_, [](const auto& some) { return any(some.over()); });
     }
 
     static constexpr int lane_of(std::int64_t i) { return static_cast<int>(i % width); }
@@ -513,10 +521,10 @@ class Batch {
         read_records(L{}, state_columns_, records, width, state(b));
         episodes.has_fault = Bool{false};
         for (int lane = 0; steps != nullptr && lane < width; ++lane)
-            set_lane(episodes.steps, lane, steps[lane]);
+            episodes.steps.set(lane, steps[lane]);
         end_if_terminal(*engine_, episodes, Bool{true}, state(b));
         if (steps == nullptr) return;
-        const Bool are_late{episodes.steps >= typename L::Count{blocks_.horizon}};
+        const Bool are_late{episodes.steps.all() >= typename L::Count{blocks_.horizon}};
         episodes.ends.beyond_horizon =
             episodes.ends.beyond_horizon || (are_late && !episodes.ends.faulted);
     }
@@ -696,7 +704,7 @@ class Batch {
             advance(*engine_, without_resets, {b, b + 1}, actions, workspace.step_buffers,
                     without_observations);
         start(workspace, b, were_over);
-        write_ends(blocks_, b, episodes_[index(b)].ends, out);
+        write_ends(b * width, lanes_of(b), episodes_[index(b)].ends, out);
     }
 
     // The next episodes of lanes whose episodes the step ended.

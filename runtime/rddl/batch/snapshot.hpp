@@ -20,7 +20,8 @@ namespace rddl {
 struct SnapshotHead {
     std::uint64_t fingerprint;  // of the problem
     std::uint64_t size;         // bytes of the whole snapshot
-    std::int64_t number, steps;
+    std::int64_t number;
+    StepCounts<Scalar> steps;
     std::uint64_t key_low, key_high;
     Stream stream;
     Ends<Scalar> ends;

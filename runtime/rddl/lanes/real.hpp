@@ -11,8 +11,9 @@
 //     bits_of, real_of_bits         IEEE's binary64 as an unsigned integer of 64 bits that wraps
 //                                   around and has + - & | ^, also with std::uint64_t on the right,
 //                                   and << >> by an int
-//     map_lanes(x, f), (x, y, f)    f, a function of doubles, in each lane
-//     replace_lanes(mask, x, r, f)  f(x) in the lanes of the mask, which are few, else r
+//     first_if_even(bits, x, y)     x where the last bit is 0, else y, without an unforeseeable
+//     jump map_lanes(x, f), (x, y, f)    f, a function of doubles, in each lane replace_lanes(mask,
+//     x, r, f)  f(x) in the lanes of the mask, which are few, else r
 //
 // float and packs of it have the same with binary32, std::uint32_t and floats, and
 //
@@ -98,6 +99,12 @@ inline double sqrt(double a) {
 }
 inline float sqrt(float a) {
     return std::sqrt(a);
+}
+
+template <std::floating_point R>
+R first_if_even(decltype(bits_of(R{})) bits, R first, R second) {
+    const auto odd = decltype(bits){0} - (bits & 1);
+    return real_of_bits(bits_of(first) ^ ((bits_of(first) ^ bits_of(second)) & odd));
 }
 
 template <class Function>

@@ -140,6 +140,26 @@ template <int mode, class Function>
     return detail::rounded<0xA>(a, [](float x) { return std::ceil(x); });
 }
 
+// a where the last bit of the lane is 0, else b.
+template <class Bits, class V>
+[[gnu::always_inline]] inline V first_if_even(Bits bits, V a, V b) {
+#ifdef RDDL_SIMD_AVX512
+    if constexpr (sizeof(Bits) < register_bytes)
+        return _mm256_mask_blend_ps(
+            _mm256_test_epi32_mask(reinterpret<__m256i>(bits), _mm256_set1_epi32(1)), a, b);
+    else if constexpr (sizeof bits[0] == 4)
+        return _mm512_mask_blend_ps(
+            _mm512_test_epi32_mask(reinterpret<__m512i>(bits), _mm512_set1_epi32(1)), a, b);
+    else
+        return _mm512_mask_blend_pd(
+            _mm512_test_epi64_mask(reinterpret<__m512i>(bits), _mm512_set1_epi64(1)), a, b);
+#else
+    const Bits odd = Bits{} - (bits & 1);
+    const Bits first = reinterpret<Bits>(a);
+    return reinterpret<V>(first ^ ((first ^ reinterpret<Bits>(b)) & odd));
+#endif
+}
+
 // ------------------------------------------------------------------------- half a register
 
 #ifdef RDDL_SIMD_AVX512

@@ -143,20 +143,52 @@ RDDL_ALWAYS_INLINE void take_over(const E& engine, const Blocks<L>& blocks, std:
             copy_state(engine, made.next, memory.next);
         if (observed && made.observation != memory.observation)
             copy_observation(engine, made.observation, memory.observation);
-        take_over_some(engine, blocks, b, mask, in_memory);
+        const Blocks<L> copy = blocks;  // so that a caller's may stay in registers
+        take_over_some(engine, copy, b, mask, in_memory);
     }
 }
 
-// One step of the running episodes of block `b`, with the causes of their ends; returns the
-// rewards, 0 for lanes without a step. States and, if partially observed, observations change
-// unless the step faults. Preconditions are not checked.
+// Whether the next episodes of packs start with nothing but their states, and these are small: then
+// their blocks need not stop for that.
+template <Engine E>
+inline constexpr bool starts_states_only =
+    SmallStateEngine<E> && !PolicyEngine<E> && E::Lane::width > 1;
+
+// Whether these are a few constants besides, which registers can take over under a mask. Where a
+// real takes two registers, that takes longer than a jump.
+template <Engine E>
+inline constexpr bool starts_with_constants = [] {
+    if constexpr (starts_states_only<E>)
+        return !E::has_large_states && !E::draws && E::Lane::Real::part_count == 1;
+    return false;
+}();
+
+// The next episodes of these lanes start while the step's states are in registers, without jumps,
+// which processors can hardly foretell where episodes are short.
+template <Engine E, class L = typename E::Lane>
+RDDL_ALWAYS_INLINE void start_at_once(const E& engine, Episodes<L>& episodes, typename L::Bool over,
+                                      std::byte* next) {
+    using Int = typename L::Count;
+    typename E::State initial;
+    auto* const made = reinterpret_cast<std::byte*>(&initial);
+    Context<L> context = episodes.context_of_state(over);
+    engine.reset(made, context);
+    select_values(L{}, E::state_columns, over, made, next);
+    episodes.steps.begin(over);
+    episodes.number = select(over, wrap_add(episodes.number, Int{1}), episodes.number);
+}
+
+// One step of the running episodes of block `b`, with the causes of their ends and the episodes
+// that are left over; returns the rewards, 0 for lanes without a step. States and, if partially
+// observed, observations change unless the step faults. Preconditions are not checked. With
+// `at_once` the next episodes start already, where all lanes run and they start with constants.
 template <Engine E, class L>
 RDDL_ALWAYS_INLINE typename L::Real make_step(const E& engine, const Blocks<L>& blocks,
                                               std::int64_t b, typename L::Bool running,
-                                              Ends<L>& ends, const Actions& actions,
+                                              Ends<L>& ends, typename L::Bool& over, bool all_run,
+                                              bool at_once, const Actions& actions,
                                               StepBuffers made, const StepBuffers& memory) {
     using Bool = typename L::Bool;
-    using Int = typename L::Count;
     Episodes<L>& episodes = blocks.episodes[b];
     const std::byte* const states = state_of(engine, blocks, b);
     made.next = next_state_of(engine, blocks, b, made.next);
@@ -166,31 +198,41 @@ RDDL_ALWAYS_INLINE typename L::Real make_step(const E& engine, const Blocks<L>& 
         engine.step(states, action, made.scratch, made.next, made.observation, context);
     const Bool terminal = engine.terminal(made.next, context);
     const Bool violation = engine.violates_invariant(made.next, context);
-    if (any(context.faulted())) episodes.end_by_faults(context);
-    const Bool moved = running && !context.faulted();
-    const Bool whole_block = moved || !episodes.is_present();  // whatever there is in absent lanes
-    take_over(engine, blocks, b, whole_block, made, memory);
-    episodes.has_fault = episodes.has_fault && !moved;
-    if (all(moved)) {
-        episodes.steps = wrap_add(episodes.steps, Int{1});
-        ends = {terminal, episodes.steps >= Int{blocks.horizon}, violation, false};
-        if (any(ends.any())) episodes.ends = ends;  // they ran, so they had no ends
+    if (all_run && !any(context.faulted())) {
+        ends = {terminal, episodes.steps.count_all(blocks.horizon), violation, false};
+        over = ends.any();
+        if constexpr (starts_with_constants<E>) {
+            if (at_once) {
+                start_at_once(engine, episodes, over, made.next);
+                over = Bool{false};
+            }
+        }
+        if (any(over)) episodes.ends = ends;  // they ran, so they had no ends
+        if constexpr (L::width == 1) episodes.has_fault = false;
+        take_over(engine, blocks, b, Bool{true}, made, memory);
         return reward;
     }
-    episodes.steps = select(moved, wrap_add(episodes.steps, Int{1}), episodes.steps);
-    ends = episodes.ends;
-    ends.terminated = select(moved, terminal, ends.terminated);
-    ends.violated = select(moved, violation, ends.violated);
-    ends.beyond_horizon = select(moved, episodes.steps >= Int{blocks.horizon}, ends.beyond_horizon);
-    episodes.ends = ends;
-    return select(moved, reward, typename L::Real{0});
+    if (any(context.faulted())) episodes.end_by_faults(context);
+    if constexpr (L::width == 1) {  // it has faulted
+        ends = episodes.ends;
+        over = ends.any();
+        return 0;
+    } else {
+        const Bool moved = running && !context.faulted();
+        episodes.has_fault = episodes.has_fault && !moved;
+        // Whatever there is in absent lanes.
+        const Bool whole_block = moved || !episodes.is_present();
+        take_over(engine, blocks, b, whole_block, made, memory);
+        const Bool late = episodes.steps.count(moved, blocks.horizon);
+        ends = episodes.ends;
+        ends.terminated = select(moved, terminal, ends.terminated);
+        ends.violated = select(moved, violation, ends.violated);
+        ends.beyond_horizon = select(moved, late, ends.beyond_horizon);
+        episodes.ends = ends;
+        over = ends.any();
+        return select(moved, reward, typename L::Real{0});
+    }
 }
-
-// Whether the next episodes of packs start with nothing but their states, and these are small: then
-// their blocks need not stop for that.
-template <Engine E>
-inline constexpr bool starts_states_only =
-    SmallStateEngine<E> && !PolicyEngine<E> && E::Lane::width > 1;
 
 }  // namespace detail
 
@@ -200,12 +242,10 @@ inline bool wants_finals(const rddl_transition& out) {
            out.final_observation_values != nullptr;
 }
 
-// Writes which episodes of block `b` are over.
+// Writes which episodes of the environments from `first` on are over, of so many lanes.
 template <class L>
-RDDL_ALWAYS_INLINE void write_ends(const Blocks<L>& blocks, std::int64_t b, const Ends<L>& ends,
+RDDL_ALWAYS_INLINE void write_ends(std::int64_t first, int lanes, const Ends<L>& ends,
                                    const rddl_transition& out) {
-    const std::int64_t first = b * L::width;
-    const int lanes = blocks.lanes_of(b);
     if (out.terminated != nullptr) write_flags(ends.terminated, out.terminated + first, lanes);
     if (out.truncated != nullptr) write_flags(ends.truncated(), out.truncated + first, lanes);
     if (out.causes == nullptr) return;
@@ -215,37 +255,81 @@ RDDL_ALWAYS_INLINE void write_ends(const Blocks<L>& blocks, std::int64_t b, cons
         for (int lane = 0; lane < lanes; ++lane) out.causes[first + lane] = ends.causes(lane);
 }
 
+// The same with rewards.
+template <class L>
+RDDL_ALWAYS_INLINE void write_results(std::int64_t first, int lanes, const typename L::Real& reward,
+                                      const Ends<L>& ends, const rddl_transition& out) {
+    if (out.rewards != nullptr) write_reals(reward, out.rewards + first, lanes);
+    write_ends(first, lanes, ends, out);
+}
+
+// Whether the caller wants the usual results, of whole blocks.
+template <class L>
+bool wants_common_results(int lanes, const rddl_transition& out) {
+    return lanes == L::width && out.rewards != nullptr && out.terminated != nullptr &&
+           out.truncated != nullptr && out.causes == nullptr;
+}
+template <class L>
+RDDL_ALWAYS_INLINE void write_common_results(std::int64_t first, const typename L::Real& reward,
+                                             const Ends<L>& ends, const rddl_transition& out) {
+    write_reals(reward, out.rewards + first, L::width);
+    write_flags(ends.terminated, out.terminated + first, L::width);
+    write_flags(ends.truncated(), out.truncated + first, L::width);
+}
+
 // A step of the running episodes of the blocks from range.begin on, whose rewards and ends are
 // written; observations are not. With automatic resets it stops at the first block whose episodes
 // are to start again; else at range.end. `memory` is room to work in. Rows of less than a whole
 // block are not read: such a block comes with a block of actions.
 template <Engine E, class L = typename E::Lane>
-RDDL_ALWAYS_INLINE Stop<L> advance(const E& engine, const Blocks<L>& blocks, Range range,
+RDDL_ALWAYS_INLINE Stop<L> advance(const E& engine, const Blocks<L>& all_blocks, Range range,
                                    Actions actions, const StepBuffers& memory,
-                                   const rddl_transition& out) {
+                                   const rddl_transition& all_out) {
     using Bool = typename L::Bool;
+    // No store of the loop can change a copy, so its parts need not be loaded again.
+    constexpr bool loops = L::width > 1;
+    const std::conditional_t<loops, Blocks<L>, const Blocks<L>&> blocks = all_blocks;
+    const std::conditional_t<loops, rddl_transition, const rddl_transition&> out = all_out;
+    const int lanes = blocks.lanes_of(range.end - 1);
+    const bool are_common = loops && wants_common_results<L>(lanes, out);
+    const bool starts_here = detail::starts_states_only<E> &&
+                             blocks.autoreset == RDDL_AUTORESET_SAME_STEP && !wants_finals(out) &&
+                             blocks.observations == nullptr;
+    const bool at_once = [&] {
+        if constexpr (detail::starts_with_constants<E>)
+            return starts_here && blocks.start_running && range.begin < range.end &&
+                   blocks.episodes[range.begin].are_short();
+        return false;
+    }();
     for (std::int64_t b = range.begin; b < range.end; ++b) {
-        const Bool present = blocks.episodes[b].is_present();
-        const Bool running = blocks.episodes[b].running();
-        if (any(present && !running) && blocks.autoreset == RDDL_AUTORESET_NEXT_STEP)
+        const Episodes<L>& episodes = blocks.episodes[b];
+        const bool all_run = episodes.all_run();
+        const Bool running = all_run ? Bool{true} : episodes.running();
+        if (!all_run && any(episodes.is_present() && !running) &&
+            blocks.autoreset == RDDL_AUTORESET_NEXT_STEP)
             return {b, false};
         typename L::Real reward{0};
         Ends<L> ends;
-        if (any(running))
+        Bool over;
+        if (all_run || any(running)) {
             reward = with_step_buffers<E>(memory, [&](const StepBuffers& made) RDDL_INLINE_LAMBDA {
-                return detail::make_step(engine, blocks, b, running, ends, actions, made, memory);
+                return detail::make_step(engine, blocks, b, running, ends, over, all_run, at_once,
+                                         actions, made, memory);
             });
+        } else {
+            ends = episodes.ends;
+            over = ends.any();
+        }
+        if (are_common)
+            write_common_results(b * L::width, reward, ends, out);
         else
-            ends = blocks.episodes[b].ends;
-        if (out.rewards != nullptr)
-            write_reals(reward, out.rewards + b * L::width, blocks.lanes_of(b));
-        write_ends(blocks, b, ends, out);
-        const Bool over = present && ends.any();
+            write_results(b * L::width, lanes, reward, ends, out);
+        if (!any(over)) continue;
+        over = episodes.is_present() && over;
         if (!any(over) || blocks.autoreset != RDDL_AUTORESET_SAME_STEP) continue;
-        const bool alone = !wants_finals(out) && blocks.observations == nullptr;
-        if (!detail::starts_states_only<E> || !alone) return {b, over};
+        if (!starts_here) return {b, over};
         if constexpr (detail::starts_states_only<E>)
-            start_next(engine, blocks, b, over, memory.next);
+            start_next(engine, all_blocks, b, over, memory.next);
     }
     return {range.end, false};
 }

@@ -705,7 +705,20 @@ void write_values(L, const Columns& columns, const std::byte* block, Number* row
 
 // -------------------------------------------------------------------------------- in blocks
 
-// Takes over another block's values where the mask holds.
+// Takes over another block's values where the mask holds, without jumps.
+template <class L, class List>
+RDDL_INLINE void select_values(L, const ColumnTable<List>& columns, typename L::Bool mask,
+                               const std::byte* from, std::byte* block) {
+    for_each_column(columns, [&](const Column& column) RDDL_INLINE_LAMBDA {
+        with_type<L>(column.scalar, [&]<class T>() RDDL_INLINE_LAMBDA {
+            const T* const theirs = detail::values_in<T>(from, column);
+            T* const ours = detail::values_in<T>(block, column);
+            for (std::int64_t k = 0; k < column.count; ++k)
+                ours[k] = select(mask, theirs[k], ours[k]);
+        });
+    });
+}
+// The same with jumps, as most masks are empty or full.
 template <class R, class List>
 void merge(ScalarOf<R>, const ColumnTable<List>& columns, bool mask, const std::byte* from,
            std::byte* block) {
@@ -719,15 +732,7 @@ requires(L::width > 1) void merge(L, const ColumnTable<List>& columns, typename 
         std::memcpy(block, from, static_cast<std::size_t>(columns.block_size));
         return;
     }
-    if (!any(mask)) return;
-    for_each_column(columns, [&](const Column& column) RDDL_INLINE_LAMBDA {
-        with_type<L>(column.scalar, [&]<class T>() RDDL_INLINE_LAMBDA {
-            const T* const theirs = detail::values_in<T>(from, column);
-            T* const ours = detail::values_in<T>(block, column);
-            for (std::int64_t k = 0; k < column.count; ++k)
-                ours[k] = select(mask, theirs[k], ours[k]);
-        });
-    });
+    if (any(mask)) select_values(L{}, columns, mask, from, block);
 }
 
 // Each lane gets the values of the first one.

@@ -88,6 +88,7 @@ struct Compiled {
     static constexpr bool has_state_tables = has_tables(problem, RDDL_STATE);
     static constexpr bool has_large_states =
         has_state_tables || (L::width > 1 && has_large_state(problem));
+    static constexpr bool draws = problem.stochastic != 0;
     static constexpr auto state_columns = known_columns<L, problem, RDDL_STATE>(problem.state_size);
     static constexpr auto action_columns =
         known_columns<L, problem, RDDL_ACTION>(problem.action_size);

@@ -166,7 +166,7 @@ RDDL_ALWAYS_INLINE void copy_each_value(const std::byte* from, std::byte* to) {
     });
 }
 template <Engine E>
-void copy_state(const E& engine, const std::byte* from, std::byte* to) {
+RDDL_ALWAYS_INLINE void copy_state(const E& engine, const std::byte* from, std::byte* to) {
     if constexpr (TypedEngine<E> && std::is_same_v<typename E::Lane, ScalarOf<float>>)
         copy_each_value<E>(from, to);
     else if constexpr (TypedEngine<E>)

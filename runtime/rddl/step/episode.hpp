@@ -7,6 +7,7 @@
 #include <rddl/simulator.h>
 #include <rddl/step/columns.hpp>
 #include <rddl/step/engine.hpp>
+#include <rddl/step/step_counts.hpp>
 #include <rddl/values/context.hpp>
 
 #include <algorithm>
@@ -55,15 +56,16 @@ struct alignas(64) Episodes {
     using Int = typename L::Count;
     using Word = typename L::Word;
 
-    Bool present{true};            // false: no environment in this lane, for ever
-    Int number{std::int64_t{-1}};  // episodes ended before this one
-    Int steps{std::int64_t{0}};    // made in this episode
-    Word key_low{std::uint64_t{0}}, key_high{std::uint64_t{0}};
-    std::int64_t state = 0;  // which of the two records of the block it is: 0 or 1
+    // Each step looks at these, in one cache line.
     Ends<L> ends;
+    Bool present{true};      // false: no environment in this lane, for ever
+    Bool has_fault{false};   // see `faults`
+    std::int64_t state = 0;  // which of the two records of the block it is: 0 or 1
+    StepCounts<L> steps;     // made in this episode
 
+    Int number{std::int64_t{-1}};  // episodes ended before this one
+    Word key_low{std::uint64_t{0}}, key_high{std::uint64_t{0}};
     // The fault of this episode, or of the last one until this one makes a step.
-    Bool has_fault{false};
     std::array<FaultRecord, static_cast<std::size_t>(L::width)> faults;
     std::array<std::int64_t, static_cast<std::size_t>(L::width)> fault_steps;  // made before
 
@@ -77,13 +79,21 @@ struct alignas(64) Episodes {
         if constexpr (L::width == 1) return std::bit_cast<std::uint32_t>(ends) == 0;
         return is_present() && !ends.any();
     }
+    // Whether all lanes run and, of packs, none has a fault to forget.
+    bool all_run() const {
+        if constexpr (L::width == 1) return running();
+        return all(present) && !any(has_fault) && !has_ends();
+    }
+
+    // Whether some episode of the block has ended in every fourth step, judged by those of a lane.
+    bool are_short() const { return get_lane(number, 0) > steps.of_block() / (4 * L::width); }
 
     // The draws of the step that leaves timestep t are counted as t + 1, those at reset as 0.
     Context<L> context_of_step(Bool active) const {
         return Context<L>::of(key_low, key_high, next_step(), active);
     }
     Context<L> context_of_state(Bool active) const {
-        return Context<L>::of(key_low, key_high, words_of(steps), active);
+        return Context<L>::of(key_low, key_high, words_of(steps.all()), active);
     }
 
     // These lanes run, unless their state is terminal or faulted.
@@ -99,7 +109,7 @@ struct alignas(64) Episodes {
         for_each_lane(context.faulted(), [&](int lane) {
             const auto place = static_cast<std::size_t>(lane);
             faults[place] = context.fault_of(lane);
-            fault_steps[place] = get_lane(steps, lane);
+            fault_steps[place] = steps.of(lane);
             set_lane(has_fault, lane, true);
             set_lane(ends.terminated, lane, false);
             set_lane(ends.beyond_horizon, lane, false);
@@ -113,7 +123,7 @@ struct alignas(64) Episodes {
         const auto place = static_cast<std::size_t>(lane);
         Episodes<Scalar> one;
         one.number = get_lane(number, lane);
-        one.steps = get_lane(steps, lane);
+        one.steps.set(0, steps.of(lane));
         one.key_low = get_lane(key_low, lane);
         one.key_high = get_lane(key_high, lane);
         one.ends = ends.of(lane);
@@ -125,7 +135,7 @@ struct alignas(64) Episodes {
     void set(int lane, const Episodes<Scalar>& one) {
         const auto place = static_cast<std::size_t>(lane);
         set_lane(number, lane, one.number);
-        set_lane(steps, lane, one.steps);
+        steps.set(lane, one.steps.of(0));
         set_lane(key_low, lane, one.key_low);
         set_lane(key_high, lane, one.key_high);
         ends.set(lane, one.ends);
@@ -135,7 +145,13 @@ struct alignas(64) Episodes {
     }
 
   private:
-    Word next_step() const { return words_of(steps) + Word{std::uint64_t{1}}; }
+    bool has_ends() const {
+        // All at once, where they fit into a word.
+        if constexpr (sizeof ends == sizeof(std::uint64_t))
+            return std::bit_cast<std::uint64_t>(ends) != 0;
+        return any(ends.any());
+    }
+    Word next_step() const { return words_of(steps.all()) + Word{std::uint64_t{1}}; }
 };
 
 // The source of an environment's random numbers, with the number of its episode.
@@ -155,6 +171,7 @@ struct Blocks {
     std::int64_t environment_count;
     std::int64_t horizon;  // the greatest int: no horizon
     rddl_autoreset autoreset;
+    bool start_running;     // no episode is over when it starts
     const Stream* streams;  // of each environment; null: nothing is drawn
     Episodes<L>* episodes;
     std::byte* states;         // two records for each block: its state, and room for the next one
@@ -189,6 +206,7 @@ struct Blocks {
 template <StateEngine E, class L = typename E::Lane>
 void end_if_terminal(const E& engine, Episodes<L>& episodes, typename L::Bool lanes,
                      const std::byte* states) {
+    episodes.steps.look_again();
     Context<L> context = episodes.context_of_state(lanes);
     const typename L::Bool terminal = engine.terminal(states, context);
     episodes.begin(lanes, terminal, context);
@@ -274,7 +292,7 @@ void start_next(const E& engine, const Blocks<L>& blocks, std::int64_t b, typena
     using Int = typename L::Count;
     Episodes<L>& episodes = blocks.episodes[b];
     episodes.number = select(lanes, wrap_add(episodes.number, Int{1}), episodes.number);
-    episodes.steps = select(lanes, Int{0}, episodes.steps);
+    episodes.steps.begin(lanes);
     if (blocks.streams != nullptr) set_keys(blocks, b, lanes);
     Context<L> context = episodes.context_of_state(lanes);
     const StateRecords records{blocks.state_of(b, engine.state_size()), room};

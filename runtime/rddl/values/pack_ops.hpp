@@ -319,6 +319,15 @@ RDDL_INLINE Lanes<std::int64_t, n> ints_of(const Lanes<std::uint64_t, n>& a) {
     return detail::same_bits<std::int64_t>(a);
 }
 
+// The first in lanes where the last bit is 0, else the second.
+template <class Bits, class R, int n>
+RDDL_INLINE Lanes<R, n> first_if_even(const Lanes<Bits, n>& bits, const Lanes<R, n>& first,
+                                      const Lanes<R, n>& second) {
+    return Lanes<R, n>::each([](auto b, auto x, auto y)
+                                 RDDL_INLINE_LAMBDA { return simd::first_if_even(b, x, y); },
+                             bits, first, second);
+}
+
 // The lanes of a and b in turns.
 template <class T, int n>
 RDDL_INLINE Lanes<T, 2 * n> interleaved(const Lanes<T, n>& a, const Lanes<T, n>& b) {

@@ -115,36 +115,24 @@ RDDL_ALWAYS_INLINE Circle<R> far_circle(R a) {
             real_of_bits(lower_halves(bits_of(quadrants)))};
 }
 
-// Requires |a| <= detail::greatest_angle.
-template <class R>
-RDDL_ALWAYS_INLINE Circle<R> circle(R a) {
-    const Circle<R> near = near_circle(a);
-    const auto is_far = absolute(a) > greatest_near_angle;
-    if (!any(is_far)) return near;
-    const Circle<R> far = far_circle(a);
-    return {select(is_far, far.sine, near.sine), select(is_far, far.cosine, near.cosine),
-            select(is_far, far.quadrants, near.quadrants)};
-}
-
 // The sine of the angle and `quarters` right angles, an unsigned int or one in each lane.
 template <class R, class Quarters>
 RDDL_ALWAYS_INLINE R sine(const Circle<R>& circle, Quarters quarters) {
-    const auto s = bits_of(circle.sine);
-    const auto c = bits_of(circle.cosine);
     const auto turns = bits_of(circle.quadrants) + quarters;
-    using Bits = std::remove_const_t<decltype(turns)>;
-    const Bits odd = Bits{std::uint32_t{0}} - (turns & std::uint32_t{1});
-    const Bits sign = (turns << 30) & std::uint32_t{0x8000'0000};
-    return real_of_bits((s ^ ((s ^ c) & odd)) ^ sign);
+    const R magnitude = first_if_even(turns, circle.sine, circle.cosine);
+    const auto sign = (turns << 30) & std::uint32_t{0x8000'0000};
+    return real_of_bits(bits_of(magnitude) ^ sign);
 }
 
-// `result` for angles that `circle` can reduce, else that of doubles.
+// `result` where near_circle can reduce the angle; else the sine of it and `quarters` right angles,
+// by doubles, and by their function where the angle is too great for that as well.
 template <class R, class Function>
-RDDL_ALWAYS_INLINE R with_great_angles(R a, R result, Function function) {
+[[gnu::noinline]] R with_far_angles(R a, R result, std::uint32_t quarters, Function function) {
+    const auto is_far = absolute(a) > greatest_near_angle;
+    const R sines = select(is_far, sine(far_circle(a), quarters), result);
     const auto great = absolute(a) > float{detail::greatest_angle};
-    if (!any(great)) [[likely]]
-        return result;
-    return select(great, to_float(function(to_double(a))), result);
+    if (!any(great)) return sines;
+    return select(great, to_float(function(to_double(a))), sines);
 }
 
 }  // namespace detail::single
@@ -174,14 +162,19 @@ R ln(R a) {
 template <FloatLanes R>
 RDDL_ALWAYS_INLINE R sin(R a) {
     using namespace detail::single;
-    const R result = sine(circle(a), std::uint32_t{0});
-    return with_great_angles(a, select(absolute(a) < 0x1p-12f, a, result),
-                             [](auto x) { return sin(x); });
+    const R result = sine(near_circle(a), std::uint32_t{0});
+    const R near = select(absolute(a) < 0x1p-12f, a, result);
+    if (!any(absolute(a) > greatest_near_angle)) [[likely]]
+        return near;
+    return with_far_angles(a, near, 0, [](auto x) { return sin(x); });
 }
 template <FloatLanes R>
 RDDL_ALWAYS_INLINE R cos(R a) {
     using namespace detail::single;
-    return with_great_angles(a, sine(circle(a), std::uint32_t{1}), [](auto x) { return cos(x); });
+    const R near = sine(near_circle(a), std::uint32_t{1});
+    if (!any(absolute(a) > greatest_near_angle)) [[likely]]
+        return near;
+    return with_far_angles(a, near, 1, [](auto x) { return cos(x); });
 }
 
 // As that of doubles, with the same frequent exponents.

@@ -64,15 +64,6 @@ RDDL_ALWAYS_INLINE Pair<R> cosine(Pair<R> a) {
     return {head.high, head.low + (z * z * polynomial(cos_coefficients, z) - a.high * a.low)};
 }
 
-// The first where the last bit of `quadrants` is 0, else the second; by bits, because an
-// unforeseeable branch would cost more.
-template <class R, class Bits>
-RDDL_ALWAYS_INLINE R first_if_even(Bits quadrants, R first, R second) {
-    const Bits odd = Bits{0} - (quadrants & std::uint64_t{1});
-    const Bits bits = bits_of(first);
-    return real_of_bits(bits ^ ((bits ^ bits_of(second)) & odd));
-}
-
 // Negated where the given bit is set.
 template <class R, class Bits>
 RDDL_ALWAYS_INLINE R negated_by_bit(Bits bits, int place, R a) {
@@ -97,7 +88,7 @@ RDDL_ALWAYS_INLINE R sin(R a) {
     const auto [quadrants, rest] = detail::angle(a);
     const auto s = detail::sine(rest);
     const auto c = detail::cosine(rest);
-    const R magnitude = detail::first_if_even(quadrants, s.high + s.low, c.high + c.low);
+    const R magnitude = first_if_even(quadrants, s.high + s.low, c.high + c.low);
     const R result = detail::negated_by_bit(quadrants, 1, magnitude);
     return detail::with_great_angles(a, select(absolute(a) < 0x1p-27, a, result),
                                      [](double x) { return std::sin(unknown(x)); });
@@ -108,7 +99,7 @@ RDDL_ALWAYS_INLINE R cos(R a) {
     const auto [quadrants, rest] = detail::angle(a);
     const auto s = detail::sine(rest);
     const auto c = detail::cosine(rest);
-    const R magnitude = detail::first_if_even(quadrants, c.high + c.low, s.high + s.low);
+    const R magnitude = first_if_even(quadrants, c.high + c.low, s.high + s.low);
     const R result = detail::negated_by_bit(quadrants + std::uint64_t{1}, 1, magnitude);
     return detail::with_great_angles(a, result, [](double x) { return std::cos(unknown(x)); });
 }
@@ -118,10 +109,10 @@ R tan(R a) {
     const auto [quadrants, rest] = detail::angle(a);
     const auto s = detail::sine(rest);
     const auto c = detail::cosine(rest);
-    const detail::Pair<R> dividend{detail::first_if_even(quadrants, s.high, c.high),
-                                   detail::first_if_even(quadrants, s.low, c.low)};
-    const detail::Pair<R> divisor{detail::first_if_even(quadrants, c.high, s.high),
-                                  detail::first_if_even(quadrants, c.low, s.low)};
+    const detail::Pair<R> dividend{first_if_even(quadrants, s.high, c.high),
+                                   first_if_even(quadrants, s.low, c.low)};
+    const detail::Pair<R> divisor{first_if_even(quadrants, c.high, s.high),
+                                  first_if_even(quadrants, c.low, s.low)};
     const R result = detail::negated_by_bit(quadrants, 0, detail::quotient(dividend, divisor));
     return detail::with_great_angles(a, select(absolute(a) < 0x1p-27, a, result),
                                      [](double x) { return std::tan(unknown(x)); });
