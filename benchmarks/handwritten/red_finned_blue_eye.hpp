@@ -65,7 +65,7 @@ struct RedFinnedBlueEye : RunsToTheHorizon {
         return level;
     }
 
-    // What is drawn in each step.
+    // Both are drawn in each step.
     template <class Word>
     struct Nature {
         Word level, dies;

@@ -45,7 +45,7 @@ struct Uav {
     static constexpr std::size_t registers = (kinds * draws_of_kind + n - 1) / n;
     struct Order {
         std::uint64_t site[registers * n], block[registers * n];
-        // Of both numbers of each lane; nobody's kind is `kinds`.
+        // Who gets both numbers of each lane; the kind is `kinds` where they are not needed.
         std::size_t kind[2 * registers][n], craft[2 * registers][n];
         std::uint64_t walks[2 * registers], places[2 * registers], speeds[2 * registers];
     };
