@@ -123,9 +123,11 @@ struct CrossingStreets : RunsToTheHorizon {
 };
 
 struct TrafficTables {
-    static constexpr const auto &occupied = traffic::occupied, &exits = traffic::exits,
-                                &north_south = traffic::north_south,
-                                &east_west = traffic::east_west, &rates = traffic::rates;
+    static constexpr const auto& occupied = traffic::occupied;
+    static constexpr const auto& exits = traffic::exits;
+    static constexpr const auto& north_south = traffic::north_south;
+    static constexpr const auto& east_west = traffic::east_west;
+    static constexpr const auto& rates = traffic::rates;
 };
 struct Traffic : CrossingStreets<TrafficTables> {};
 

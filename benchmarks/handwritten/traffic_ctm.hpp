@@ -6,9 +6,11 @@
 namespace handwritten {
 
 struct TrafficCtmTables {
-    static constexpr const auto &occupied = traffic_ctm::occupied, &exits = traffic_ctm::exits,
-                                &north_south = traffic_ctm::north_south,
-                                &east_west = traffic_ctm::east_west, &rates = traffic_ctm::rates;
+    static constexpr const auto& occupied = traffic_ctm::occupied;
+    static constexpr const auto& exits = traffic_ctm::exits;
+    static constexpr const auto& north_south = traffic_ctm::north_south;
+    static constexpr const auto& east_west = traffic_ctm::east_west;
+    static constexpr const auto& rates = traffic_ctm::rates;
 };
 struct TrafficCtm : CrossingStreets<TrafficCtmTables> {};
 
