@@ -49,6 +49,12 @@ def bit_set(name: str, row) -> str:
     return number(name, f"{sum(1 << int(k) for k in np.flatnonzero(row)):#x}", "std::uint64_t")
 
 
+def words(name: str, numbers) -> str:
+    """Sets of bits, row after row."""
+    numbers = np.asarray(numbers, dtype=int)
+    return f"inline constexpr std::uint64_t {name}{sizes(numbers)} = {braced(numbers, hex)};"
+
+
 def mountain_car() -> list[str]:
     values = values_of("MountainCar_ippc2023", "1")
     starts, ends = values["X-START"], values["X-END"]
@@ -189,8 +195,8 @@ def elevators() -> list[str]:
     return [array("arrive", values["ARRIVE-PARAM"])]
 
 
-def traffic() -> list[str]:
-    values = values_of("Traffic_MDP_ippc2014", "10")
+def crossing_streets(problem: str) -> list[str]:
+    values = values_of(problem, "10")
     half = np.eye(36, k=2, dtype=bool)
     assert np.array_equal(values["FLOWS-INTO-CELL"], np.kron(np.eye(2, dtype=bool), half)), "two cells further"
     inputs = values["PERIMETER-INPUT-CELL"].reshape(2, 36)
@@ -198,10 +204,8 @@ def traffic() -> list[str]:
     assert not np.any(values["light-signal1"]) and not np.any(values["light-signal2"])
 
     def sets(name: str, cells) -> str:
-        words = np.array([sum(1 << int(k) for k in np.flatnonzero(part)) for part in np.reshape(cells, (-1, 36))])
-        if len(words) > 2:
-            words = words.reshape(-1, 2)
-        return f"inline constexpr std::uint64_t {name}{sizes(words)} = {braced(words, hex)};"
+        parts = np.array([sum(1 << int(k) for k in np.flatnonzero(part)) for part in np.reshape(cells, (-1, 36))])
+        return words(name, parts.reshape(-1, 2) if len(parts) > 2 else parts)
 
     return [
         sets("occupied", values["occupied"]),
@@ -210,6 +214,14 @@ def traffic() -> list[str]:
         sets("east_west", values["FLOWS-INTO-INTERSECTION-EW"].T),
         array("rates", values["PERIMETER-INPUT-RATE"].reshape(2, 36)[:, :2]),
     ]
+
+
+def traffic() -> list[str]:
+    return crossing_streets("Traffic_MDP_ippc2014")
+
+
+def traffic_ctm() -> list[str]:
+    return crossing_streets("Traffic_CTM_MDP_ippc2011")
 
 
 def knapsack() -> list[str]:
@@ -502,6 +514,82 @@ def option() -> list[str]:
     ]
 
 
+def uav() -> list[str]:
+    values = values_of("UAV_ippc2023", "5")
+    assert all(np.all(values[f"{end}-{axis}"] == sign * 50000) for end, sign in (("MIN", -1), ("MAX", 1)) for axis in "XYZ")
+    limits = {"ACC": 10, "DELTA-PHI": 1, "DELTA-THETA": 1}
+    assert all(np.all(values[f"MAX-{name}"] == most) and np.all(values[f"MIN-{name}"] == -most) for name, most in limits.items())
+    assert (values["GRAVITY"], values["SCALE-FACTOR"], values["VEL-REG"]) == (9.8, 0.1, 0.001)
+    controlled = np.flatnonzero(values["CONTROLLABLE"])
+    return [
+        integers("controlled", controlled, "std::size_t"),
+        array("goal", [values[f"GOAL-{axis}"][controlled] for axis in "XYZ"]),
+        array("start", [values[name] for name in ("phi", "pos-x", "pos-y", "pos-z", "psi", "theta", "vel")]),
+        number("variance", values["RANDOM-WALK-COEFF"]),
+    ]
+
+
+def race_car() -> list[str]:
+    values = values_of("RaceCar_ippc2023", "5")
+    ends = [values[name] for name in ("X1", "Y1", "X2", "Y2")]
+    assert np.all((ends[0] == ends[2]) | (ends[1] == ends[3])), "walls along the axes"
+    assert values["vx"] == values["vy"] == 0 and values["x"] == values["X0"] and values["y"] == values["Y0"]
+    assert (values["MASS"], values["DT"], values["COST"], values["GOAL-REWARD"]) == (1, 0.1, 0.01, 1)
+    names = {"start_x": "X0", "start_y": "Y0", "goal_x": "GX", "goal_y": "GY", "radius": "RADIUS"}
+    return [
+        *(array(name, of) for name, of in zip(("x1", "y1", "x2", "y2"), ends, strict=True)),
+        *(number(name, float(values[fluent])) for name, fluent in names.items()),
+    ]
+
+
+def traffic_blx() -> list[str]:
+    values = values_of("TrafficBLX_SimplePhases", "0")
+    sources, sinks = [0, 2, 4, 6], [1, 3, 5, 7]
+    assert [list(np.flatnonzero(values[name])) for name in ("SOURCE", "SINK")] == [sources, sinks]
+    turns = [[(source + way) % 8 for way in (1, 3, 5)] for source in sources]  # right, through and left
+    assert [sorted(ways) for ways in turns] == [list(np.flatnonzero(values["TURN"][source])) for source in sources]
+    constants = {"MU": 0.53, "BETA": 0.33, "Nl": 4, "Vl": 13.8, "Dl": 150, "Lv": 6, "Ts": 1, "SOURCE-ARRIVAL-RATE": 0.3, "SOURCE-MU": 0.4}
+    assert all(np.all(values[name][..., sources] == value) if np.ndim(values[name]) else values[name] == value for name, value in constants.items())
+    assert not any(np.any(values[name]) for name in ("flow-on-link", "q", "Nc", "virtual-q", "signal-t"))
+    assert np.array_equal(values["TIME-VAL"], np.arange(21)) and np.array_equal(values["NEXT"], np.eye(21, k=1))
+    green = values["GREEN"]
+    assert all(np.all(green[source, way[0]]) for source, way in zip(sources, turns, strict=True)), "right turns always"
+    return [
+        array("green_through", [[green[source, way[1], phase] for source, way in zip(sources, turns, strict=True)] for phase in range(8)]),
+        array("green_left", [[green[source, way[2], phase] for source, way in zip(sources, turns, strict=True)] for phase in range(8)]),
+        array("least", values["PHASE-MIN"][0]),
+        array("most", values["PHASE-MAX"][0]),
+    ]
+
+
+def red_finned_blue_eye() -> list[str]:
+    values = values_of("RedFinnedBlueEye_ippc2018", "20")
+    connected = values["SPRINGS_CONNECTED"]
+    springs, _, levels = connected.shape
+    assert not np.any(connected & connected.swapaxes(0, 1)), "a chance to colonize is 0 or 1"
+    assert np.all(connected[:, :, 1:] <= connected[:, :, :-1]), "high water connects more"
+    assert values["translocate-possible-in"] == 0 and values["TRANSLOCATION_INTERVAL"] == 4
+    near = connected | connected.swapaxes(0, 1)
+    distances = sorted({b - a for a, b, _ in np.argwhere(connected)})
+    assert min(distances) > 0
+    # Of each distance and level: the springs that are connected to one so much further.
+    open_at = [[np.array([s + d < springs and near[s, s + d, level] for s in range(springs)]) for level in range(levels)] for d in distances]
+    neighbours = [[sum(1 << int(k) for k in np.flatnonzero(near[s, :, level])) for s in range(springs)] + [0] * (-springs % 8) for level in range(levels)]
+    further = [[sum(1 << int(k) for k in np.flatnonzero(row)) for row in rows] + [0] for rows in open_at]
+    return [
+        bit_set("fish", values["population"] == 0),
+        bit_set("gambusia", values["population"] == 1),
+        number("springs", springs, "std::size_t"),
+        number("levels", levels, "std::size_t"),
+        integers("distances", distances, "int"),
+        words("neighbours", neighbours),
+        words("further", further),
+        array("level_chances", values["HIGH_WATER_PROB"]),
+        array("mortality", values["NATURAL_MORTALITY_PROB"]),
+        array("success", [values[f"{name}_SUCCESS_PROB"] for name in ("POISON", "REMOVE_MANUALLY", "TRANSLOCATION")]),
+    ]
+
+
 TABLES = (
     mountain_car,
     sysadmin,
@@ -533,6 +621,11 @@ TABLES = (
     manufacturer,
     logistics,
     option,
+    uav,
+    race_car,
+    traffic_blx,
+    red_finned_blue_eye,
+    traffic_ctm,
 )
 
 

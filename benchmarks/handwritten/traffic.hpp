@@ -1,5 +1,6 @@
-// Traffic_MDP_ippc2014 10: two pairs of streets of 36 cells each, a word for each pair; cars flow
-// two bits further. Four intersections, of which the lights are a word for each of their two bits.
+// Traffic_MDP_ippc2014 10, and others with its streets (traffic_ctm.hpp): two pairs of streets of
+// 36 cells each, a word for each pair; cars flow two bits further. Four intersections, of which the
+// lights are a word for each of their two bits.
 #pragma once
 
 #include "bools.hpp"
@@ -7,7 +8,8 @@
 
 namespace handwritten {
 
-struct Traffic : RunsToTheHorizon {
+template <class Tables>
+struct CrossingStreets : RunsToTheHorizon {
     static constexpr int width = 8;
     static constexpr std::uint64_t horizon = 40;
     static constexpr bool stochastic = true;
@@ -28,15 +30,15 @@ struct Traffic : RunsToTheHorizon {
     };
 
     static void start(State<rddl::Scalar>& state) {
-        state = {0, 0, {traffic::occupied[0], traffic::occupied[1]}};
+        state = {0, 0, {Tables::occupied[0], Tables::occupied[1]}};
     }
     template <class L>
     static void start(State<L>& state, typename L::Bool where) {
         const std::uint64_t none = 0;
         state = {select(where, none, state.first_light),
                  select(where, none, state.second_light),
-                 {select(where, traffic::occupied[0], state.cars[0]),
-                  select(where, traffic::occupied[1], state.cars[1])}};
+                 {select(where, Tables::occupied[0], state.cars[0]),
+                  select(where, Tables::occupied[1], state.cars[1])}};
     }
 
     template <class L>
@@ -53,8 +55,8 @@ struct Traffic : RunsToTheHorizon {
                 open = everywhere;
                 for (std::size_t i = 0; i < intersections; ++i) {
                     const bool first = colours >> i & 1, second = colours >> (i + 4) & 1;
-                    if (!(second && !first)) open &= ~traffic::north_south[i][half];
-                    if (!(first && !second)) open &= ~traffic::east_west[i][half];
+                    if (!(second && !first)) open &= ~Tables::north_south[i][half];
+                    if (!(first && !second)) open &= ~Tables::east_west[i][half];
                 }
             }
         return all;
@@ -84,7 +86,7 @@ struct Traffic : RunsToTheHorizon {
             const Word empty = cars ^ Word { everywhere };
             queued = queued + bit_count(cars & cars << flow);
             const Word ready = cars & gate(half, colours);
-            const Word leaves = (ready & empty >> flow) | (cars & traffic::exits[half]);
+            const Word leaves = (ready & empty >> flow) | (cars & Tables::exits[half]);
             const Word arrives = empty & ready << flow;
             const auto numbers =
                 draws.two_integers(Word{std::uint64_t{0}}, Word{std::uint64_t{half * cells / 2}});
@@ -96,8 +98,8 @@ struct Traffic : RunsToTheHorizon {
     }
 
     static constexpr std::uint64_t rates[2][2] = {
-        {threshold(traffic::rates[0][0]), threshold(traffic::rates[0][1])},
-        {threshold(traffic::rates[1][0]), threshold(traffic::rates[1][1])}};
+        {threshold(Tables::rates[0][0]), threshold(Tables::rates[0][1])},
+        {threshold(Tables::rates[1][0]), threshold(Tables::rates[1][1])}};
     static std::uint64_t enters(std::uint64_t number, std::size_t half, std::size_t cell) {
         return std::uint64_t{number < rates[half][cell]} << cell;
     }
@@ -119,5 +121,14 @@ struct Traffic : RunsToTheHorizon {
         store_bits_as_bytes<cells>(lane_of(state.cars[1], lane), record + cells);
     }
 };
+
+struct TrafficTables {
+    static constexpr const auto& occupied = traffic::occupied;
+    static constexpr const auto& exits = traffic::exits;
+    static constexpr const auto& north_south = traffic::north_south;
+    static constexpr const auto& east_west = traffic::east_west;
+    static constexpr const auto& rates = traffic::rates;
+};
+struct Traffic : CrossingStreets<TrafficTables> {};
 
 }  // namespace handwritten

@@ -22,6 +22,7 @@
 #include "passes/aggregations/skip_added_zeros.hpp"
 #include "passes/aggregations/skip_unchosen_sums.hpp"
 #include "passes/aggregations/skip_zero_terms.hpp"
+#include "passes/aggregations/tabulate_comparisons.hpp"
 #include "passes/aggregations/tabulate_counts.hpp"
 #include "passes/aggregations/tabulate_draws.hpp"
 #include "passes/aggregations/tabulate_products.hpp"
@@ -314,6 +315,12 @@ constexpr Pass in_order[] = {
      "products of bools as numbers are bools",
      {"make_aggregations_sparse", "skip_zero_terms"},
      "tables of bools are factors there"},
+    {"tabulate_comparisons",
+     Phase::Aggregations,
+     tabulate_comparisons,
+     "comparisons of ints that the aggregations of a loop repeat become tables of bools",
+     {"make_aggregations_sparse", "keep_bools"},
+     "rows are known, and count_bits is next, which says whether it uses the tables"},
     {"count_bits",
      Phase::Aggregations,
      count_bits,

@@ -18,6 +18,8 @@ namespace {
 
 // More words than this cost more than rows of the few entries that they have.
 constexpr std::int64_t most_words = 8 * bits_of_an_int;
+// Rows of each value of an int that chooses them: at most so many values.
+constexpr std::int64_t most_chosen_rows = 16;
 // The compiler looks at each of these entries.
 constexpr double most_counted_entries = 1e6;
 
@@ -58,6 +60,54 @@ class BitCounting {
 
   private:
     std::optional<ir::NodeId> counted(ir::NodeId id) {
+        const auto found = counted_in_rows(id);
+        return found ? found : counted_in_chosen_rows(id);
+    }
+
+    // Where an int of the step is an index of constant tables, its values are one more variable
+    // that chooses the row.
+    std::optional<ir::NodeId> counted_in_chosen_rows(ir::NodeId id) {
+        const Levels nest = levels_of(id);
+        if (nest.reduces.empty()) return std::nullopt;
+        const auto choice = choice_in(nest.term);
+        if (!choice) return std::nullopt;
+        const ir::NodeId value = builder_.index(variable_of(choice->values));
+        std::map<ir::NodeId, ir::NodeId> known = {{choice->number, value}};
+        const auto found = counted(ir::replace_in(builder_, id, known));
+        if (!found) return std::nullopt;
+        known = {{value, choice->number}};
+        return ir::replace_in(builder_, *found, known);
+    }
+
+    struct Choice {
+        ir::NodeId number;
+        std::int64_t values;
+    };
+    // The first index of a constant table that is an element at a place that does not change.
+    std::optional<Choice> choice_in(ir::NodeId id) const {
+        const ir::Node& node = program_[id];
+        const auto* load = std::get_if<ir::Load>(&node.form);
+        if (load && program_[load->buffer].storage == ir::Storage::Constant)
+            for (std::size_t axis = 0; axis < load->indices.size(); ++axis) {
+                const ir::NodeId index = load->indices[axis];
+                const ir::Properties& properties = builder_.properties(index);
+                const std::int64_t values = program_[load->buffer].shape[axis];
+                if (ir::buffer_read_by(program_[index]) && !properties.uniform &&
+                    properties.free_variables.empty() && values > 1 && values <= most_chosen_rows)
+                    return Choice{index, values};
+            }
+        for (const ir::NodeId operand : ir::operands_of(node))
+            if (const auto found = choice_in(operand)) return found;
+        return std::nullopt;
+    }
+    ir::VariableId variable_of(std::int64_t values) {
+        const auto [variable, is_new] = choices_.try_emplace(
+            values, ir::VariableId{static_cast<std::uint32_t>(program_.variables.size())});
+        if (is_new) program_.variables.push_back({"choice", std::nullopt, values});
+        return variable->second;
+    }
+
+    std::optional<ir::NodeId> counted_in_rows(ir::NodeId id) {
         if (const auto parts = sum_of_parts(id)) return parts;
         const std::optional<CountedNest> nest = nest_of(id);
         if (!nest) return std::nullopt;
@@ -524,6 +574,7 @@ class BitCounting {
     Report& report_;
     ir::Builder builder_;
     ir::Evaluator evaluator_;
+    std::map<std::int64_t, ir::VariableId> choices_;  // by the number of values
 
     // Members of the aggregation at hand.
     std::vector<ir::VariableId> variables_;  // that choose the row

@@ -105,8 +105,20 @@ bool ObjectLanes::can_index(ir::BufferId buffer, const std::vector<ir::NodeId>& 
     };
     if (ir::ends_with(program_, indices, nest_))
         return are_same(std::span(indices).first(indices.size() - nest_.variables.size()));
-    return are_same(indices) ||
-           (program_[buffer].storage == ir::Storage::Constant && can_evaluate_all(indices));
+    if (are_same(indices)) return true;
+    if (program_[buffer].storage == ir::Storage::Constant) return can_evaluate_all(indices);
+    return can_gather(buffer, indices);
+}
+
+// Reals of the state at places that tables of constants choose: the step before stored them.
+bool ObjectLanes::can_gather(ir::BufferId buffer, const std::vector<ir::NodeId>& indices) const {
+    return program_[buffer].storage == ir::Storage::State &&
+           program_[buffer].scalar == ir::Scalar::Real &&
+           std::ranges::all_of(indices, [&](ir::NodeId index) {
+               const bool is_from_table = std::holds_alternative<ir::Load>(program_[index].form) &&
+                                          properties_of_(index).uniform;
+               return is_same(index) || (is_from_table && can_evaluate(index));
+           });
 }
 
 // Each object has its place in a table.

@@ -19,6 +19,8 @@ namespace {
 // In operations (Properties::cost): C++ compilers put cheaper loops over reals into registers
 // themselves.
 constexpr double least_cost_of_reals = 4;
+// The same beside ints that are computed.
+constexpr double least_cost_beside_ints = 12;
 // Objects that do not fill a register share one where each of them takes so many operations:
 // elementary functions, draws of reals, and draws from weights do.
 constexpr double least_cost_of_few_objects = 60;
@@ -92,10 +94,15 @@ class Marking {
             return program_[operand].type == ir::Scalar::Real || is_worth_it(operand);
         });
     }
-    // C++ compilers put loops that compare ints into registers themselves, if they are short.
+    // C++ compilers put loops that compute ints into registers themselves, if they are short.
     bool computes_ints(const ir::Loop& loop) const {
         const ir::Nest nest = ir::nest_of(loop);
         const std::vector<ir::NodeId> roots = ir::roots_of(*nest.body);
+        const auto is_long = [&](ir::NodeId root) {
+            return program_[root].type == ir::Scalar::Real &&
+                   cost_of(root) >= least_cost_beside_ints;
+        };
+        if (std::ranges::any_of(roots, is_long)) return false;
         return std::ranges::any_of(roots, [&](ir::NodeId root) { return computes_ints(root); });
     }
     bool computes_ints(ir::NodeId id) const {

@@ -17,6 +17,7 @@ Problem with_bools(const std::string& cpf_of_x) {
     return {.pvariables =
                 "LINK(obj, obj) : { non-fluent, bool, default = false };\n"
                 "HEAVY(obj) : { non-fluent, bool, default = false };\n"
+                "OPEN(obj, obj, obj) : { non-fluent, bool, default = false };\n"
                 "x : { state-fluent, int, default = 0 };\n"
                 "t : { state-fluent, obj };\n"
                 "p(obj) : { state-fluent, bool, default = false };\n"
@@ -28,7 +29,9 @@ Problem with_bools(const std::string& cpf_of_x) {
                     ";\nt' = t;\np'(?o) = p(?o);\nq'(?o) = q(?o);\n"
                     "many'(?o, ?u, ?v, ?w) = many(?o, ?u, ?v, ?w);\ns'(?o, ?u) = s(?o, ?u);\n"
                     "made(?o, ?u) = s(?o, ?u) ^ p(?u);",
-            .non_fluents = "LINK(b1, b2); LINK(b2, b3); LINK(b3, b1); LINK(b3, b2); HEAVY(b2);",
+            .non_fluents =
+                "LINK(b1, b2); LINK(b2, b3); LINK(b3, b1); LINK(b3, b2); HEAVY(b2); "
+                "OPEN(b1, b2, b1); OPEN(b3, b1, b1); OPEN(b2, b1, b3);",
             .init_state = "t = b1;"};
 }
 
@@ -77,6 +80,18 @@ TEST(CountBits, ChoosesElementsOnce) {
     EXPECT_EQ(table_in_bits(cpf, "s-bits"), "s-bits[obj]: int = {6 40 192}");
     EXPECT_EQ(counted_in_bits("max_{?v : obj} [forall_{?o : obj} [s(?v, ?o) | (?o == ?v)]]"),
               "max[v in obj](int(bit_and(bit_xor(bits(state.s, 0), -1), s-bits[v]) == 0))");
+}
+
+// An int that is an index of constant tables chooses the row.
+TEST(CountBits, ChoosesRowsByAnInt) {
+    const std::string cpf = "forall_{?o : obj, ?u : obj} [OPEN(?o, ?u, t) => ~s(?o, ?u)]";
+    EXPECT_EQ(counted_in_bits(cpf), "int(bit_and(s-bits[state.t], bits(state.s, 0)) == 0)");
+    EXPECT_EQ(table_in_bits(cpf, "s-bits"), "s-bits[3]: int = {66 0 8}");
+    EXPECT_EQ(counted_in_bits("max_{?v : obj} [exists_{?o : obj, ?u : obj} "
+                              "[s(?o, ?u) ^ OPEN(?v, ?o, t)]]"),
+              "max[v in obj](int(bit_and(bits(state.s, 0), s-bits[v, state.t]) != 0))");
+    EXPECT_EQ(counted_in_bits("exists_{?o : obj, ?u : obj} [s(?o, t) ^ OPEN(?o, ?u, t)]"),
+              "int(bit_and(bits(state.s, 0), s-bits[state.t]) != 0)");
 }
 
 TEST(CountBits, TestsPartsByThemselves) {

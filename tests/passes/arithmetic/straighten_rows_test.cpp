@@ -48,12 +48,12 @@ TEST(StraightenRows, MakesLinesOfWhatIsRoundedOtherwise) {
                                       4};
     const auto [values, are_lines] = straightened(rounded, 4);
     EXPECT_TRUE(are_lines);
-    for (std::size_t row : {0, 4}) {
-        const double first = std::get<double>(values[row]);
-        const double rise = std::get<double>(values[row + 1]) - first;
+    for (std::size_t line : {0, 4}) {
+        const double first = std::get<double>(values[line]);
+        const double rise = std::get<double>(values[line + 1]) - first;
         for (std::size_t count = 0; count < 4; ++count) {
-            EXPECT_EQ(values[row + count], ir::Value(first + rise * static_cast<double>(count)));
-            EXPECT_NEAR(std::get<double>(values[row + count]), rounded[row + count], 1e-15);
+            EXPECT_EQ(values[line + count], ir::Value(first + rise * static_cast<double>(count)));
+            EXPECT_NEAR(std::get<double>(values[line + count]), rounded[line + count], 1e-15);
         }
     }
 }

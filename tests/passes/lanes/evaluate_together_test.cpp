@@ -66,6 +66,31 @@ TEST(EvaluateTogether, TakesLoopsInsideOfOthers) {
     EXPECT_EQ(loops("w(?y) ^ on(?y, ?x)"), "for x in obj\n        for y in obj\n            ");
 }
 
+// Reals of the state at places from tables of constants are gathered.
+TEST(EvaluateTogether, TakesInnerLoopsThatGatherOrComputeReals) {
+    const auto inner_loop = [](const std::string& cpf_of_v) {
+        Problem problem = with_pairs("on(?x, ?y)");
+        problem.pvariables +=
+            "\nNEXT(obj) : { non-fluent, obj };"
+            "\nk(obj) : { state-fluent, int, default = 0 };";
+        for (int i = 1; i <= 20; ++i)
+            problem.non_fluents +=
+                " NEXT(b" + std::to_string(i) + ") = b" + std::to_string(i % 20 + 1) + ";";
+        problem.cpfs = "on'(?x, ?y) = on(?x, ?y); v'(?x, ?y) = " + cpf_of_v +
+                       "; w'(?x) = ~w(?x); k'(?x) = k(?x) + 1;";
+        passes::Report report;
+        const std::string text =
+            ir::print(valid(passes::evaluate_together(grounded_with_many(problem), report)));
+        const std::size_t begin = text.rfind("for y in", text.find("next.v"));
+        return text.substr(begin, text.find("\n", begin) - begin);
+    };
+    EXPECT_EQ(inner_loop("1.0 / v(?x, NEXT(?y)) + sqrt[v(?x, ?x)]"),
+              "for y in obj, several at once");
+    EXPECT_EQ(inner_loop("(k(?x) == k(?y)) * sqrt[v(?x, ?y)] / v(?x, ?x)"),
+              "for y in obj, several at once");
+    EXPECT_EQ(inner_loop("(k(?x) == k(?y)) * v(?x, ?y)"), "for y in obj");
+}
+
 TEST(EvaluateTogether, TakesLoopsOverRealsThatAreNotCheap) {
     const auto marked = [](const std::string& cpf_of_v) {
         Problem problem = with_pairs("a");
