@@ -60,8 +60,9 @@ class BitCounting {
 
   private:
     std::optional<ir::NodeId> counted(ir::NodeId id) {
-        const auto found = counted_in_rows(id);
-        return found ? found : counted_in_chosen_rows(id);
+        if (const auto found = counted_in_rows(id)) return found;
+        if (const auto found = counted_in_chosen_rows(id)) return found;
+        return test_of_rest(id);
     }
 
     // Where an int of the step is an index of constant tables, its values are one more variable
@@ -113,10 +114,7 @@ class BitCounting {
         if (!nest) return std::nullopt;
         places_.reset();
         variables_ = builder_.properties(id).free_variables;
-        if (!find_places(*nest) || !is_worthwhile(*nest)) {
-            const auto rest = test_of_rest(id);
-            return rest ? rest : test_of_parts(id);
-        }
+        if (!find_places(*nest) || !is_worthwhile(*nest)) return test_of_parts(id);
         ++report_["aggregations that count bits"];
         return nest->op == Reduction::Sum ? sum(*nest) : tested(*nest);
     }
@@ -168,8 +166,9 @@ class BitCounting {
     // (ir/common_rows.hpp).
     std::optional<ir::NodeId> test_of_rest(ir::NodeId id) {
         const Levels nest = levels_of(id);
+        if (nest.reduces.empty() || builder_.properties(nest.term).may_fault) return std::nullopt;
         const Reduction op = nest.reduces.front().op;
-        if (op == Reduction::Sum || builder_.properties(nest.term).may_fault) return std::nullopt;
+        if (op != Reduction::ForAll && op != Reduction::Exists) return std::nullopt;
         const Operator connective = op == Reduction::ForAll ? Operator::Or : Operator::And;
         std::vector<ir::NodeId> same, rest;
         for (const ir::NodeId part : ir::parts_of(program_, nest.term, connective))

@@ -64,11 +64,9 @@ class CountTabulation {
     Dependence dependence_of(ir::NodeId id) const {
         const ir::Properties& properties = builder_.properties(id);
         if (properties.uniform || !is_count(id)) return dependence_on_operands(id);
-        if (std::holds_alternative<ir::Select>(program_[id].form)) {
-            const Dependence chosen = dependence_on_operands(id);
-            if (chosen.only_count) return chosen;
-        }
-        return {.count = id};
+        if (!std::holds_alternative<ir::Select>(program_[id].form)) return {.count = id};
+        const Dependence chosen = dependence_on_operands(id);
+        return chosen.only_count ? chosen : Dependence{.count = id};
     }
     Dependence dependence_on_operands(ir::NodeId id) const {
         const ir::Properties& properties = builder_.properties(id);

@@ -11,9 +11,9 @@
 //     bits_of, real_of_bits         IEEE's binary64 as an unsigned integer of 64 bits that wraps
 //                                   around and has + - & | ^, also with std::uint64_t on the right,
 //                                   and << >> by an int
-//     first_if_even(bits, x, y)     x where the last bit is 0, else y, without an unforeseeable
-//     jump map_lanes(x, f), (x, y, f)    f, a function of doubles, in each lane replace_lanes(mask,
-//     x, r, f)  f(x) in the lanes of the mask, which are few, else r
+//     first_if_even(bits, x, y)     x where the last bit is 0, else y, without a jump
+//     map_lanes(x, f), (x, y, f)    f, a function of doubles, in each lane
+//     replace_lanes(mask, x, r, f)  f(x) in the lanes of the mask, which are few, else r
 //
 // float and packs of it have the same with binary32, std::uint32_t and floats, and
 //

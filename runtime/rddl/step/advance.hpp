@@ -304,14 +304,14 @@ RDDL_ALWAYS_INLINE Stop<L> advance(const E& engine, const Blocks<L>& all_blocks,
     for (std::int64_t b = range.begin; b < range.end; ++b) {
         const Episodes<L>& episodes = blocks.episodes[b];
         const bool all_run = episodes.all_run();
-        const Bool running = all_run ? Bool{true} : episodes.running();
+        const Bool running = all_run || L::width == 1 ? Bool{all_run} : episodes.running();
         if (!all_run && any(episodes.is_present() && !running) &&
             blocks.autoreset == RDDL_AUTORESET_NEXT_STEP)
             return {b, false};
         typename L::Real reward{0};
         Ends<L> ends;
         Bool over;
-        if (all_run || any(running)) {
+        if (any(running)) {
             reward = with_step_buffers<E>(memory, [&](const StepBuffers& made) RDDL_INLINE_LAMBDA {
                 return detail::make_step(engine, blocks, b, running, ends, over, all_run, at_once,
                                          actions, made, memory);
