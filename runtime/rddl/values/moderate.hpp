@@ -30,8 +30,8 @@ template <class Real>
 RDDL_INLINE auto magnitude(const Real& value) {
     return rddl::bits_of(absolute(value));
 }
-// The bits of the greatest magnitude of so many values, in chains that do not wait for each other. A
-// value may be looked at twice.
+// The bits of the greatest magnitude of so many values, in chains that do not wait for each other.
+// A value may be looked at twice.
 template <std::size_t chains, std::size_t count, class At>
 RDDL_INLINE auto greatest_magnitude(const At& at) {
     std::array<decltype(magnitude(at(0))), chains> greatest;
@@ -72,8 +72,8 @@ typename L::Bool is_moderate(const Table& table) {
             return all(detail::are_moderate<chains, registers>(load));
         }
     }
-    return detail::are_moderate<1, count>(
-        [=](std::size_t i) RDDL_INLINE_LAMBDA { return elements[i]; });
+    return detail::are_moderate<1, count>([=](std::size_t i)
+                                              RDDL_INLINE_LAMBDA { return elements[i]; });
 }
 
 }  // namespace rddl
