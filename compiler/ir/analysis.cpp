@@ -5,6 +5,7 @@
 #include "support/match.hpp"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <limits>
@@ -103,7 +104,18 @@ class Collector {
     void describe(Scalar type, const Convert& convert) {
         const bool is_bool = program_[convert.operand].type == Scalar::Bool;
         properties_.range = is_bool ? Range{0, 1} : range(convert.operand);
-        if (!properties_.range && type == Scalar::Real) properties_.range = any_int;
+        if (!properties_.range && type == Scalar::Real)
+            properties_.range = range_of_product(convert.operand).value_or(any_int);
+    }
+
+    // A product of ints as a real. The int itself has no range, or it would be taken for a count.
+    std::optional<Range> range_of_product(NodeId id) const {
+        const auto* product = std::get_if<Apply>(&program_[id].form);
+        if (!product || product->op != Operator::Multiply) return std::nullopt;
+        const auto range = exact_range(*product, std::array{this->range(product->operands[0]),
+                                                            this->range(product->operands[1])});
+        if (!range) return std::nullopt;
+        return Range{std::ceil(range->lower), std::floor(range->upper)};
     }
 
     void describe(Scalar type, const Apply& apply) {
@@ -128,7 +140,11 @@ class Collector {
         const bool has_range =
             is_one_of(apply.op, {Operator::Add, Operator::Subtract, Operator::Negate,
                                  Operator::Minimum, Operator::Maximum});
-        if (!has_range) return std::nullopt;
+        return has_range ? exact_range(apply, operands) : std::nullopt;
+    }
+    // Where no result wraps around.
+    static std::optional<Range> exact_range(const Apply& apply,
+                                            std::span<const std::optional<Range>> operands) {
         const auto range = range_of(apply.op, operands);
         const bool is_exact = range && range->lower > -exact_ints && range->upper < exact_ints;
         return is_exact ? range : std::nullopt;
@@ -175,7 +191,8 @@ class Collector {
         if (program_[reduce.body].type != Scalar::Real || !body) return;
         const auto count = static_cast<double>(size);
         if (reduce.op == Reduction::Sum) properties_.range = rddlc::range_of_sum(*body, count);
-        if (reduce.op == Reduction::Product) properties_.range = range_of_product(*body, count);
+        if (reduce.op == Reduction::Product)
+            properties_.range = rddlc::range_of_product(*body, count);
     }
 
     std::optional<Range> range_of_sum(const Reduce& sum) const {

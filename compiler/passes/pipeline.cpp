@@ -306,7 +306,7 @@ constexpr Pass in_order[] = {
     {"skip_added_zeros",
      Phase::Aggregations,
      skip_added_zeros,
-     "additions compute only the expensive terms that constants let count",
+     "additions choose the terms that constants let count, and those that a loop computes once",
      {"tabulate_constants"},
      "it has made tables of the bools that only constants decide"},
     {"keep_bools",

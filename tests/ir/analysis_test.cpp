@@ -132,6 +132,20 @@ TEST_F(AnalysisTest, CountsOfBitsHaveARange) {
     EXPECT_EQ(properties(w.apply(Operator::CountOnes, w.load(w.count))).range->upper, 64);
 }
 
+TEST_F(AnalysisTest, ProductsOfIntsHaveARangeAsReals) {
+    const auto as_real = [&](NodeId a, NodeId b) {
+        const NodeId product = w.apply(Operator::Multiply, a, b);
+        return properties(w.builder().convert(product, Scalar::Real)).range;
+    };
+    const NodeId running = w.builder().convert(w.at(w.running, w.c), Scalar::Int);
+    const NodeId connected = w.builder().convert(w.at(w.connected, w.c), Scalar::Int);
+    EXPECT_EQ(as_real(running, connected), (Range{0, 1}));
+    EXPECT_EQ(as_real(running, w.integer(-7)), (Range{-7, 0}));
+    const Range any{-0x1p63, 0x1p63};
+    EXPECT_EQ(as_real(running, w.integer(std::int64_t{1} << 53)), any);
+    EXPECT_EQ(as_real(running, w.load(w.count)), any);
+}
+
 TEST_F(AnalysisTest, NumbersAreFiniteWhereTheirRangeShowsIt) {
     w.program.buffers[w.level.index].range = Range{-10, 10};
     const NodeId level = w.load(w.level);

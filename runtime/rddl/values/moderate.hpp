@@ -9,6 +9,7 @@
 
 #include <array>
 #include <cstddef>
+#include <type_traits>
 
 namespace rddl {
 
@@ -24,24 +25,55 @@ RDDL_INLINE Bits greater(const Bits& a, const Bits& b) {
     else
         return a < b ? b : a;
 }
-// The bits of the greatest magnitude: bits grow with magnitudes, and those of nan are the greatest.
+// The bits of the magnitude: they grow with it, and those of nan are the greatest.
 template <class Real>
-RDDL_INLINE auto greatest_magnitude(const Real& value) {
+RDDL_INLINE auto magnitude(const Real& value) {
     return rddl::bits_of(absolute(value));
 }
-template <class Element, std::size_t n>
-RDDL_INLINE auto greatest_magnitude(const std::array<Element, n>& table) {
-    auto greatest = greatest_magnitude(table[0]);
-    for (std::size_t i = 1; i < n; ++i) greatest = greater(greatest, greatest_magnitude(table[i]));
-    return greatest;
+// The bits of the greatest magnitude of so many values, in chains that do not wait for each other.
+// A value may be looked at twice.
+template <std::size_t chains, std::size_t count, class At>
+RDDL_INLINE auto greatest_magnitude(const At& at) {
+    std::array<decltype(magnitude(at(0))), chains> greatest;
+    for (std::size_t k = 0; k < chains; ++k) greatest[k] = magnitude(at(k));
+    const auto look_at = [&](std::size_t first) RDDL_INLINE_LAMBDA {
+        for (std::size_t k = 0; k < chains; ++k)
+            greatest[k] = greater(greatest[k], magnitude(at(first + k)));
+    };
+    for (std::size_t first = chains; first + chains <= count; first += chains) look_at(first);
+    if constexpr (count % chains != 0) look_at(count - chains);
+    for (std::size_t k = 1; k < chains; ++k) greatest[0] = greater(greatest[0], greatest[k]);
+    return greatest[0];
+}
+template <std::size_t chains, std::size_t count, class At>
+RDDL_INLINE auto are_moderate(const At& at) {
+    using Real = std::remove_cvref_t<decltype(at(0))>;
+    return real_of_bits(greatest_magnitude<chains, count>(at)) <= Real(moderate);
 }
 
 }  // namespace detail
 
-// Whether a real of a record is moderate, or all elements of a table are; nan is not.
+// Whether a real of a record is moderate, or all elements of a table are; nan is not. One
+// environment takes registers of a table at once, the last ones with elements of those before.
 template <class L, class Table>
 typename L::Bool is_moderate(const Table& table) {
-    return real_of_bits(detail::greatest_magnitude(table)) <= typename L::Real(moderate);
+    using Real = typename L::Real;
+    constexpr std::size_t count = sizeof(Table) / sizeof(Real);
+    const auto* const elements = reinterpret_cast<const Real*>(&table);
+    if constexpr (L::width == 1) {
+        constexpr std::size_t width = simd::lanes_of<Real> < 8 ? 8 : simd::lanes_of<Real>;
+        if constexpr (count >= width) {
+            constexpr std::size_t registers = (count + width - 1) / width;
+            constexpr std::size_t chains = registers < 4 ? registers : 4;
+            const auto load = [=](std::size_t i) RDDL_INLINE_LAMBDA {
+                const std::size_t first = i + 1 < registers ? i * width : count - width;
+                return Lanes<Real, static_cast<int>(width)>::load(elements + first);
+            };
+            return all(detail::are_moderate<chains, registers>(load));
+        }
+    }
+    return detail::are_moderate<1, count>([=](std::size_t i)
+                                              RDDL_INLINE_LAMBDA { return elements[i]; });
 }
 
 }  // namespace rddl

@@ -34,6 +34,20 @@ TEST(SkipAddedZeros, LeavesCheapTermsAndBoolsOfTheState) {
               "max[o in obj](1.0 + real(state.p[o]) * cos(state.v[o]))");
 }
 
+TEST(SkipAddedZeros, ChoosesTermsThatALoopComputesOnce) {
+    EXPECT_EQ(by_constants("max_{?o : obj} [1.0 + (E(?o) == 2) * (x * 2.0)]"),
+              "max[o in obj](1.0 + select(E[o] == 2, state.x * 2.0, 0.0))");
+    EXPECT_EQ(by_constants("max_{?o : obj} [1.0 + (E(?o) == 2) * (v(?o) * 2.0)]"),
+              "max[o in obj](1.0 + real(E[o] == 2) * (state.v[o] * 2.0))");
+}
+
+TEST(SkipAddedZeros, LooksIntoSumsWhoseZerosAreAlike) {
+    EXPECT_EQ(by_constants("max_{?o : obj} [1.0 + (v(?o) + (E(?o) == 2) * (x * 2.0))]"),
+              "max[o in obj](1.0 + (state.v[o] + select(E[o] == 2, state.x * 2.0, 0.0)))");
+    EXPECT_EQ(by_constants("max_{?o : obj} [v(?o) + (E(?o) == 2) * (x * 2.0)]"),
+              "max[o in obj](state.v[o] + real(E[o] == 2) * (state.x * 2.0))");
+}
+
 TEST(SkipAddedZeros, LeavesTermsThatMayBeInfinite) {
     EXPECT_EQ(by_constants("max_{?o : obj} [1.0 + OUTER(?o) * exp[v(?o)]]"),
               "max[o in obj](1.0 + real(OUTER[o]) * exp(state.v[o]))");
