@@ -14,7 +14,7 @@ namespace {
 constexpr std::int64_t objects_of_register = 16;
 // The normals of a step stay in the nearest cache.
 constexpr std::int64_t most_normals = 512;
-// Those of a single loop share registers without being made before.
+// The normals of a single loop share registers without being made before.
 constexpr std::size_t least_loops = 2;
 
 // Calls take(place) for the normals that every register of a loop's objects makes.
