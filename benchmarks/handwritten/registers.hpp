@@ -83,10 +83,10 @@ SinCos<R> sin_cos(R a) {
     const auto s = rddl::detail::sine(rest);
     const auto c = rddl::detail::cosine(rest);
     const R sine = s.high + s.low, cosine = c.high + c.low;
-    return {rddl::detail::negated_by_bit(quadrants, 1,
-                                         rddl::detail::first_if_even(quadrants, sine, cosine)),
-            rddl::detail::negated_by_bit(quadrants + std::uint64_t{1}, 1,
-                                         rddl::detail::first_if_even(quadrants, cosine, sine))};
+    return {
+        rddl::detail::negated_by_bit(quadrants, 1, rddl::first_if_even(quadrants, sine, cosine)),
+        rddl::detail::negated_by_bit(quadrants + std::uint64_t{1}, 1,
+                                     rddl::first_if_even(quadrants, cosine, sine))};
 }
 
 inline std::uint64_t bit_count(std::uint64_t bits) {

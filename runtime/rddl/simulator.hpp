@@ -12,6 +12,7 @@
 #include <rddl/object_lanes/moves.hpp>
 #include <rddl/object_lanes/objects.hpp>
 #include <rddl/object_lanes/rows.hpp>
+#include <rddl/object_lanes/step_normals.hpp>
 #include <rddl/object_lanes/step_numbers.hpp>
 #include <rddl/object_lanes/weight_rows.hpp>
 #include <rddl/random/distributions.hpp>

@@ -207,6 +207,38 @@ TEST(EmittedText, MakesTheNumbersOfCertainDrawsTogether) {
     EXPECT_EQ(count(with_objects(9, "Bernoulli(0.25)"), "StepNumbers"), 0u);
 }
 
+// Conditions on the state may leave all objects out, and floats are made where they are used.
+TEST(EmittedText, MakesTheNormalsOfSeveralLoopsTogether) {
+    const auto with_noise = [](int count, const std::string& second,
+                               RealType real = RealType::Double) {
+        std::string text = problem(count);
+        text.replace(text.find("a(o) :"), 0,
+                     "v(o) : { state-fluent, real, default = 0.5 };\n"
+                     "w(o) : { state-fluent, real, default = 0.5 };\n");
+        text.replace(text.find("}; reward"), 0,
+                     "v'(?o) = v(?o) + Normal(0.0, 1.0);\nw'(?o) = " + second + ";\n");
+        return emitted(text, {}, {}, real);
+    };
+    const std::string drawn = with_noise(5, "Normal(w(?o), 2.0)");
+    EXPECT_EQ(count(drawn,
+                    "step_normals = {\n"
+                    "    rddl::LoopOfNormals{1, o_count},\n"
+                    "    rddl::LoopOfNormals{2, o_count},\n"
+                    "};"),
+              1u)
+        << drawn;
+    EXPECT_EQ(count(drawn, "const rddl::StepNormals<L, step_normals> normals(context);"), 1u);
+    EXPECT_EQ(count(drawn, "rddl::place_of_normals<1>(normals,"), 1u);
+    const std::string chosen = "if (W(?o) > 2.0) then Normal(w(?o), 2.0) else 0.5";
+    EXPECT_EQ(count(with_noise(5, chosen), "rddl::place_of_normals<1>(normals,"), 1u);
+    EXPECT_EQ(count(with_noise(5, "if (on(?o)) then Normal(w(?o), 2.0) else 0.5"), "StepNormals"),
+              0u);
+    EXPECT_EQ(count(with_noise(5, "w(?o) / 2.0"), "StepNormals"), 0u) << "one loop alone";
+    EXPECT_EQ(count(with_noise(300, "Normal(w(?o), 2.0)"), "StepNormals"), 0u)
+        << "they leave the nearest cache";
+    EXPECT_EQ(count(with_noise(5, "Normal(w(?o), 2.0)", RealType::Float), "StepNormals"), 0u);
+}
+
 // A loop that visits its objects one by one is worth a row alone. Both branches make the draw.
 TEST(EmittedText, MakesTheNumbersOfAPlainLoopTogether) {
     const auto with_objects = [](int count) {

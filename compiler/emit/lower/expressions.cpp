@@ -43,6 +43,7 @@ void Uses::add(const Uses& others) {
     types.insert(others.types.begin(), others.types.end());
     context |= others.context;
     numbers |= others.numbers;
+    normals |= others.normals;
 }
 
 // -------------------------------------------------------------------------------- names
@@ -331,10 +332,19 @@ tree::Expressions Expressions::place_of_draw(const ir::Place& place,
     const bool is_bernoulli = distribution == Distribution::Bernoulli && !several_;
     const auto count = is_normal || is_bernoulli ? objects_among(place) : std::nullopt;
     const bool is_among = count && (is_normal || leaves_few_numbers(count->size));
-    if (!is_among) return this->place(place, "");
     const std::string type = is_normal && unit_.is_chosen_by_table(place) ? "rddl::PlaceAmongSome<"
                                                                           : "rddl::PlaceAmong<";
-    return this->place(place, type + unit_.size_of(*count) + ">");
+    tree::Expressions arguments =
+        this->place(place, is_among ? type + unit_.size_of(*count) + ">" : "");
+    const auto loop = is_normal && several_ ? unit_.step_normals.find(place) : std::nullopt;
+    if (loop) arguments.back() = place_of_normals(*loop, std::move(arguments.back()));
+    return arguments;
+}
+
+Expression Expressions::place_of_normals(std::size_t loop, Expression place) {
+    uses_.normals = true;
+    return tree::call("rddl::place_of_normals<" + std::to_string(loop) + ">",
+                      {word("normals"), std::move(place)});
 }
 
 Expression Expressions::place_in_step(const ir::Place& place, const StepDraws::Where& where) {

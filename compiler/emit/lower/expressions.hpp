@@ -28,6 +28,7 @@ struct Uses {
     std::set<ir::Scalar> types;
     bool context = false;
     bool numbers = false;  // of the step
+    bool normals = false;  // of the step
 
     void add(const Uses& others);
     bool has(ir::Storage storage) const { return records.contains(storage); }
@@ -191,6 +192,8 @@ class Expressions {
                                     std::optional<Distribution> distribution = {});
     // "rddl::place_in_row<0>(numbers, 1, g)": its number is made before the step.
     tree::Expression place_in_step(const ir::Place& place, const StepDraws::Where& where);
+    // "rddl::place_of_normals<0>(normals, place)": its normals are made before the step.
+    tree::Expression place_of_normals(std::size_t loop, tree::Expression place);
     // The objects of the place's scope, if it is in a loop over them.
     std::optional<ir::Variable> objects_among(const ir::Place& place) const;
     tree::Expression elements(tree::Expression table, std::span<const ir::NodeId> indices);

@@ -34,6 +34,7 @@ constexpr std::size_t calls_in_part = 32;
 
 // The numbers of the draws that every step makes.
 const std::string step_numbers = "rddl::StepNumbers<L, step_draws>";
+const std::string step_normals = "rddl::StepNormals<L, step_normals>";
 
 struct Parameter {
     std::string type;
@@ -52,6 +53,7 @@ std::vector<Parameter> parameters_of(const std::vector<Storage>& records, const 
     for (const Storage storage : records) parameters.push_back(record_parameter(storage, uses));
     parameters.push_back({"rddl::Context<L>&", "context", uses.context});
     if (uses.numbers) parameters.push_back({"const " + step_numbers + "&", "numbers", true});
+    if (uses.normals) parameters.push_back({"const " + step_normals + "&", "normals", true});
     return parameters;
 }
 
@@ -483,6 +485,9 @@ StepFunctions step_functions(const Unit& unit) {
     if (std::exchange(cpfs.uses.numbers, false))
         body.push_back(
             {tree::call(tree::declared("const " + step_numbers, "numbers"), {word("context")})});
+    if (std::exchange(cpfs.uses.normals, false))
+        body.push_back(
+            {tree::call(tree::declared("const " + step_normals, "normals"), {word("context")})});
     append(body, std::move(cpfs.calls));
     return {printed(function("void", "step", parameters_of(simulator_records, cpfs.uses),
                              std::move(body))),

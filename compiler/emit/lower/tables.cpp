@@ -6,6 +6,8 @@
 #include "ir/layout.hpp"
 #include "support/match.hpp"
 
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -170,6 +172,23 @@ tree::Statement draws_of_step(const StepDraws& draws) {
             .comment = "draws of every step, whose numbers are made together"};
 }
 
+// inline constexpr std::array step_normals = {
+//     rddl::LoopOfNormals{0, zone_count}, rddl::LoopOfNormals{1, zone_count * lift_count}
+// };
+tree::Statement normals_of_step(const Unit& unit) {
+    tree::Expressions loops;
+    for (const auto& [series, variables] : unit.step_normals.loops()) {
+        std::vector<std::string> sizes;
+        for (const ir::VariableId id : variables) sizes.push_back(unit.size_of(unit.program[id]));
+        loops.push_back(
+            tree::braces("rddl::LoopOfNormals",
+                         {tree::number(series), word(fmt::format("{}", fmt::join(sizes, " * ")))}));
+    }
+    return {.form = tree::Assign{tree::declared("inline constexpr std::array", "step_normals"),
+                                 tree::braces("", std::move(loops))},
+            .comment = "normals of every step, made together"};
+}
+
 std::string tables(const Unit& unit, const Unit* around) {
     tree::Block definitions;
     for (std::size_t index = 0; index < unit.program.buffers.size(); ++index) {
@@ -185,6 +204,7 @@ std::string tables(const Unit& unit, const Unit* around) {
         definitions.back().comment = comment_text(buffer.name) + ", " + unit.where(buffer.span);
     }
     if (!unit.step_draws.rows().empty()) definitions.push_back(draws_of_step(unit.step_draws));
+    if (!unit.step_normals.loops().empty()) definitions.push_back(normals_of_step(unit));
     return section("tables", tree::print(definitions, 0));
 }
 

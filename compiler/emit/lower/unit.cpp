@@ -60,6 +60,7 @@ Unit::Unit(const ir::Program& the_program, const Sources& the_sources,
         }
     }
     step_draws = StepDraws(program, [&](const ir::Place& place) { return !is_among_sites(place); });
+    step_normals = StepNormals(program, properties);
 }
 
 std::set<std::uint32_t> Unit::series_of_lone_draws() const {

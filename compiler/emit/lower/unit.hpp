@@ -4,6 +4,7 @@
 
 #include "emit/emit.hpp"
 #include "emit/lower/step_draws.hpp"
+#include "emit/lower/step_normals.hpp"
 #include "emit/names/names.hpp"
 #include "ir/analysis.hpp"
 #include "ir/ir.hpp"
@@ -60,6 +61,7 @@ struct Unit {
     bool is_among_sites(const ir::Place& place) const;
 
     StepDraws step_draws;
+    StepNormals step_normals;
 
   private:
     std::set<std::uint32_t> series_of_lone_draws() const;

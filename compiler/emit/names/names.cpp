@@ -101,7 +101,7 @@ std::string table_type(ir::Scalar scalar, RealType real) {
 }
 
 std::vector<std::string> function_words() {
-    std::vector<std::string> words = {"context", "numbers", "k", "Bool", "Int", "Real"};
+    std::vector<std::string> words = {"context", "numbers", "normals", "k", "Bool", "Int", "Real"};
     for (const Storage storage : {Storage::State, Storage::Action, Storage::Scratch, Storage::Next,
                                   Storage::Observation, Storage::Memory, Storage::NextMemory})
         words.push_back(words_of(storage).parameter);
