@@ -46,7 +46,7 @@ RDDL_INLINE auto greatest_magnitude(const At& at) {
     return greatest[0];
 }
 template <std::size_t chains, std::size_t count, class At>
-RDDL_INLINE auto are_moderate(const At& at) {
+RDDL_INLINE auto are_all_moderate(const At& at) {
     using Real = std::remove_cvref_t<decltype(at(0))>;
     return real_of_bits(greatest_magnitude<chains, count>(at)) <= Real(moderate);
 }
@@ -69,11 +69,11 @@ typename L::Bool is_moderate(const Table& table) {
                 const std::size_t first = i + 1 < registers ? i * width : count - width;
                 return Lanes<Real, static_cast<int>(width)>::load(elements + first);
             };
-            return all(detail::are_moderate<chains, registers>(load));
+            return all(detail::are_all_moderate<chains, registers>(load));
         }
     }
-    return detail::are_moderate<1, count>([=](std::size_t i)
-                                              RDDL_INLINE_LAMBDA { return elements[i]; });
+    return detail::are_all_moderate<1, count>([=](std::size_t i)
+                                                  RDDL_INLINE_LAMBDA { return elements[i]; });
 }
 
 }  // namespace rddl
