@@ -74,7 +74,9 @@ class BitCounting {
         if (!choice) return std::nullopt;
         const ir::NodeId value = builder_.index(variable_of(choice->values));
         std::map<ir::NodeId, ir::NodeId> known = {{choice->number, value}};
+        ++choices_around_;
         const auto found = counted(ir::replace_in(builder_, id, known));
+        --choices_around_;
         if (!found) return std::nullopt;
         known = {{value, choice->number}};
         return ir::replace_in(builder_, *found, known);
@@ -103,7 +105,8 @@ class BitCounting {
     }
     ir::VariableId variable_of(std::int64_t values) {
         const auto [variable, is_new] = choices_.try_emplace(
-            values, ir::VariableId{static_cast<std::uint32_t>(program_.variables.size())});
+            std::pair(values, choices_around_),
+            ir::VariableId{static_cast<std::uint32_t>(program_.variables.size())});
         if (is_new) program_.variables.push_back({"choice", std::nullopt, values});
         return variable->second;
     }
@@ -573,7 +576,9 @@ class BitCounting {
     Report& report_;
     ir::Builder builder_;
     ir::Evaluator evaluator_;
-    std::map<std::int64_t, ir::VariableId> choices_;  // by the number of values
+    // By the number of values and of other choices around: two ints of a type have two variables.
+    std::map<std::pair<std::int64_t, int>, ir::VariableId> choices_;
+    int choices_around_ = 0;
 
     // Members of the aggregation at hand.
     std::vector<ir::VariableId> variables_;  // that choose the row
