@@ -572,7 +572,7 @@ def red_finned_blue_eye() -> list[str]:
     near = connected | connected.swapaxes(0, 1)
     distances = sorted({b - a for a, b, _ in np.argwhere(connected)})
     assert min(distances) > 0
-    # Of each distance and level: the springs that are connected to one so much further.
+    # Each distance and level has the springs that are connected to a spring so much further.
     open_at = [[np.array([s + d < springs and near[s, s + d, level] for s in range(springs)]) for level in range(levels)] for d in distances]
     neighbours = [[sum(1 << int(k) for k in np.flatnonzero(near[s, :, level])) for s in range(springs)] + [0] * (-springs % 8) for level in range(levels)]
     further = [[sum(1 << int(k) for k in np.flatnonzero(row)) for row in rows] + [0] for rows in open_at]

@@ -114,7 +114,7 @@ struct Buffer {
 struct Place {
     SiteId site;
     NodeId index;  // Int: row-major index over Site::scope
-    bool operator==(const Place&) const = default;
+    auto operator<=>(const Place&) const = default;
 };
 struct Site {
     Span span;

@@ -56,6 +56,19 @@ Block looped(Block body, const std::vector<VariableId>& variables) {
     return body;
 }
 
+std::vector<NodeId> values_of(const Block& block) {
+    std::vector<NodeId> values;
+    for (const Statement& statement : block) {
+        if (const auto* let = std::get_if<Let>(&statement.form)) values.push_back(let->value);
+        if (const auto* store = std::get_if<Store>(&statement.form)) values.push_back(store->value);
+    }
+    return values;
+}
+
+bool takes_all_objects(const Loop& loop) {
+    return !loop.as_words && !loop.affected && !loop.chosen && !loop.clearances;
+}
+
 std::int64_t combinations(const Program& program, std::span<const VariableId> variables) {
     std::int64_t count = 1;
     for (const VariableId variable : variables) count *= program[variable].size;

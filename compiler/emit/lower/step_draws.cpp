@@ -91,8 +91,7 @@ class CertainDraws {
 bool fills_row(const ir::Program& program, const ir::Loop& loop) {
     const std::int64_t objects = ir::combinations(program, ir::nest_of(loop).variables);
     return (loop.several_at_once || (objects > 1 && !leaves_few_numbers(objects))) &&
-           objects <= objects_of_row && !loop.as_words && !loop.affected && !loop.chosen &&
-           !loop.clearances;
+           objects <= objects_of_row && ir::takes_all_objects(loop);
 }
 
 }  // namespace
@@ -105,7 +104,7 @@ bool leaves_few_numbers(std::int64_t objects) {
 StepDraws::StepDraws(const ir::Program& program,
                      const std::function<bool(const ir::Place&)>& takes_lane) {
     std::vector<Row> lone_rows;
-    std::vector<std::pair<Key, Where>> lone;
+    std::vector<std::pair<ir::Place, Where>> lone;
     const auto series_of = [&](const ir::Place& place) {
         return program.series_of(place.site).index;
     };
@@ -115,13 +114,13 @@ StepDraws::StepDraws(const ir::Program& program,
         if (lone_rows.empty() || lone_rows.back().lone.size() == counters_of_row)
             lone_rows.emplace_back();
         auto& lanes = lone_rows.back().lone;
-        lone.push_back({key_of(place), {.row = lone_rows.size() - 1, .lane = lanes.size()}});
+        lone.push_back({place, {.row = lone_rows.size() - 1, .lane = lanes.size()}});
         lanes.push_back({series_of(place), std::get<std::int64_t>(index->value)});
     };
     bool has_one_by_one = false;
     const auto add_loop = [&](const ir::Loop& loop, const ir::Nest& nest, const ir::Place& place) {
-        if (!ir::is_place_in(program, nest, place.index) || found_.contains(key_of(place))) return;
-        found_[key_of(place)] = {.row = rows_.size(), .over_several = loop.several_at_once};
+        if (!ir::is_place_in(program, nest, place.index) || found_.contains(place)) return;
+        found_[place] = {.row = rows_.size(), .over_several = loop.several_at_once};
         has_one_by_one = has_one_by_one || !loop.several_at_once;
         rows_.push_back({.loop = series_of(place)});
     };
@@ -137,15 +136,11 @@ StepDraws::StepDraws(const ir::Program& program,
             const ir::Nest nest = ir::nest_of(*loop);
             CertainDraws inside(program, loop->several_at_once,
                                 [&](const ir::Place& place) { add_loop(*loop, nest, place); });
-            for (const ir::Statement& inner : *nest.body) {
-                if (const auto* let = std::get_if<ir::Let>(&inner.form)) inside.in(let->value);
-                if (const auto* store = std::get_if<ir::Store>(&inner.form))
-                    inside.in(store->value);
-            }
+            for (const ir::NodeId value : ir::values_of(*nest.body)) inside.in(value);
         }
     }
-    for (auto& [key, where] : lone)
-        found_[key] = {.row = where.row + rows_.size(), .lane = where.lane};
+    for (auto& [place, where] : lone)
+        found_[place] = {.row = where.row + rows_.size(), .lane = where.lane};
     std::ranges::move(lone_rows, std::back_inserter(rows_));
     if (rows_.size() >= least_rows || has_one_by_one) return;
     rows_.clear();
@@ -153,7 +148,7 @@ StepDraws::StepDraws(const ir::Program& program,
 }
 
 std::optional<StepDraws::Where> StepDraws::find(const ir::Place& place) const {
-    const auto found = found_.find(key_of(place));
+    const auto found = found_.find(place);
     return found == found_.end() ? std::nullopt : std::optional(found->second);
 }
 

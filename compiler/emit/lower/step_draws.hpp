@@ -9,7 +9,6 @@
 #include <functional>
 #include <map>
 #include <optional>
-#include <utility>
 #include <vector>
 
 namespace rddlc::cpp {
@@ -47,11 +46,8 @@ class StepDraws {
     std::optional<Where> find(const ir::Place& place) const;
 
   private:
-    using Key = std::pair<std::uint32_t, std::uint32_t>;  // of the site and the index
-    static Key key_of(const ir::Place& place) { return {place.site.index, place.index.index}; }
-
     std::vector<Row> rows_;
-    std::map<Key, Where> found_;
+    std::map<ir::Place, Where> found_;
 };
 
 }  // namespace rddlc::cpp

@@ -50,7 +50,7 @@ class CertainNormals {
 
   private:
     // Whether each register has objects for which the condition, of constant tables, is `chosen`.
-    // That of few objects is no constant.
+    // If all objects share a register, it has: a condition that is the same for all is folded.
     bool is_in_all_registers(ir::NodeId condition, bool chosen) const {
         if (!properties_[condition.index].uniform) return false;
         const std::int64_t count = ir::combinations(program_, nest_.variables);
@@ -77,11 +77,6 @@ class CertainNormals {
     std::set<ir::NodeId> seen_;
 };
 
-bool takes_registers(const ir::Loop& loop) {
-    return loop.several_at_once && !loop.as_words && !loop.affected && !loop.chosen &&
-           !loop.clearances;
-}
-
 }  // namespace
 
 StepNormals::StepNormals(const ir::Program& program,
@@ -98,21 +93,17 @@ StepNormals::StepNormals(const ir::Program& program,
             by_series[series] = loops_.size();
             loops_.push_back({series, nest.variables});
         }
-        found_[key_of(place)] = by_series[series];
+        found_[place] = by_series[series];
     };
     for (const ir::Definition& definition : program.step) {
         if (definition.unchosen) continue;
         for (const ir::Statement& statement : definition.body) {
             const auto* const loop = std::get_if<ir::Loop>(&statement.form);
-            if (!loop || !takes_registers(*loop)) continue;
+            if (!loop || !loop->several_at_once || !ir::takes_all_objects(*loop)) continue;
             const ir::Nest nest = ir::nest_of(*loop);
             CertainNormals inside(program, properties, nest,
                                   [&](const ir::Place& place) { add(nest, place); });
-            for (const ir::Statement& inner : *nest.body) {
-                if (const auto* let = std::get_if<ir::Let>(&inner.form)) inside.in(let->value);
-                if (const auto* store = std::get_if<ir::Store>(&inner.form))
-                    inside.in(store->value);
-            }
+            for (const ir::NodeId value : ir::values_of(*nest.body)) inside.in(value);
         }
     }
     if (loops_.size() >= least_loops) return;
@@ -121,7 +112,7 @@ StepNormals::StepNormals(const ir::Program& program,
 }
 
 std::optional<std::size_t> StepNormals::find(const ir::Place& place) const {
-    const auto found = found_.find(key_of(place));
+    const auto found = found_.find(place);
     return found == found_.end() ? std::nullopt : std::optional(found->second);
 }
 

@@ -9,7 +9,6 @@
 #include <cstdint>
 #include <map>
 #include <optional>
-#include <utility>
 #include <vector>
 
 namespace rddlc::cpp {
@@ -31,11 +30,8 @@ class StepNormals {
     std::optional<std::size_t> find(const ir::Place& place) const;
 
   private:
-    using Key = std::pair<std::uint32_t, std::uint32_t>;  // of the site and the index
-    static Key key_of(const ir::Place& place) { return {place.site.index, place.index.index}; }
-
     std::vector<Loop> loops_;
-    std::map<Key, std::size_t> found_;
+    std::map<ir::Place, std::size_t> found_;
 };
 
 }  // namespace rddlc::cpp

@@ -23,7 +23,6 @@ class ComparisonTables {
         : program_(std::move(program)), builder_(program_) {}
 
     void change(std::size_t definition) {
-        name_ = program_[program_.step[definition].target].name;
         span_ = program_.step[definition].span;
         ir::Block body = std::move(program_.step[definition].body);
         ir::Block result;
@@ -108,7 +107,6 @@ class ComparisonTables {
 
     ir::Program program_;
     ir::Builder builder_;
-    std::string name_;
     Span span_;
     std::map<std::tuple<ir::BufferId, Operator, std::int64_t>, ir::BufferId> known_;
     std::set<ir::BufferId> made_;
