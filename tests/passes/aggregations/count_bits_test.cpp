@@ -94,6 +94,13 @@ TEST(CountBits, ChoosesRowsByAnInt) {
               "int(bit_and(bits(state.s, 0), s-bits[state.t]) != 0)");
 }
 
+TEST(CountBits, TellsTwoIntsThatChooseRowsApart) {
+    EXPECT_EQ(counted_in_bits("exists_{?o : obj, ?u : obj} [s(?o, ?u) ^ OPEN(?o, ?u, t) ^ "
+                              "OPEN(?u, ?o, t')]"),
+              "int(bit_and(bit_and(bits(state.s, 0), s-bits[state.t, next.t]), "
+              "s-bits-2[state.t, next.t]) != 0)");
+}
+
 TEST(CountBits, TestsPartsByThemselves) {
     EXPECT_EQ(counted_in_bits("forall_{?o : obj, ?u : obj} [s(?o, ?u) ^ x > 2]"),
               "int(bit_and(bit_xor(bits(state.s, 0), -1), 511) == 0 && state.x > 2)");
