@@ -36,7 +36,7 @@ Block& innermost_body(Loop& outermost);
 // the body.
 Block looped(Block body, const std::vector<VariableId>& variables);
 
-// What lets and stores of a block evaluate, without those of its loops.
+// The values of the lets and stores of a block, without those of its loops.
 std::vector<NodeId> values_of(const Block& block);
 // Whether the loop takes all of its objects, one by one or several at once.
 bool takes_all_objects(const Loop& loop);
