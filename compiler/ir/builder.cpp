@@ -85,6 +85,7 @@ class Key {
         add(form.body);
         if (form.bounds) add(std::vector{form.bounds->begin, form.bounds->end});
         add(std::uint64_t{form.over_true});
+        add(std::uint64_t{form.several_at_once});
     }
     void add(const Sample& form) {
         add(static_cast<std::uint64_t>(form.distribution));
@@ -266,7 +267,7 @@ NodeId Builder::select(NodeId condition, NodeId then_value, NodeId else_value,
 }
 
 NodeId Builder::reduce(Reduction op, VariableId variable, NodeId body, std::optional<Bounds> bounds,
-                       bool over_true) {
+                       bool over_true, bool several_at_once) {
     const Scalar type = result_type(op, program_[body].type);
     const std::int64_t size = program_[variable].size;
     if (op == Reduction::Sum) body = without_zero(program_, body);  // it begins with 0.0
@@ -282,7 +283,7 @@ NodeId Builder::reduce(Reduction op, VariableId variable, NodeId body, std::opti
     if (size == 1 && !is_argument(op)) return aggregated(op, body);
     if (fixed && is_argument(op) && is_droppable(properties(body)))
         return constant(std::int64_t{0});
-    return intern({type, Reduce{op, variable, body, {}, over_true}});
+    return intern({type, Reduce{op, variable, body, {}, over_true, several_at_once}});
 }
 
 NodeId Builder::aggregated(Reduction op, NodeId terms) {
@@ -327,7 +328,8 @@ NodeId Builder::rebuild(const Node& node) {
             return select(form.condition, form.then_value, form.else_value, form.evaluated);
         },
         [&](const Reduce& form) {
-            return reduce(form.op, form.variable, form.body, form.bounds, form.over_true);
+            return reduce(form.op, form.variable, form.body, form.bounds, form.over_true,
+                          form.several_at_once);
         },
         [&](const Sample& form) {
             return sample(node.type, form.distribution, form.place, form.parameters, form.is_valid);

@@ -45,7 +45,7 @@ class Builder {
                   Evaluated evaluated = Evaluated::Branch);
     // Over an empty variable only for reductions that have a value there.
     NodeId reduce(Reduction op, VariableId variable, NodeId body, std::optional<Bounds> bounds = {},
-                  bool over_true = false);
+                  bool over_true = false, bool several_at_once = false);
     // An aggregation whose terms are combined already, such as one over a single object: a sum of
     // reals begins with 0.0, and so is never -0.0.
     NodeId aggregated(Reduction op, NodeId terms);

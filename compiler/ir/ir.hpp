@@ -229,6 +229,9 @@ struct Reduce {
     // Emitted code visits the true elements of a row or table of bools alone (row_of_bools.hpp),
     // except for several objects at once.
     bool over_true = false;
+    // Emitted code evaluates this exists or forall, with those of its kind right inside, for
+    // several objects at once where there is but one environment.
+    bool several_at_once = false;
     bool operator==(const Reduce&) const = default;
 };
 // KronDelta and DiracDelta do not occur (they are their argument).
@@ -390,8 +393,8 @@ struct External {
     Span span;         // of its first use
 };
 
-// If all bools of these tables of the action are false, a definition fills its target with a copy of
-// a table of the state (passes/lanes/keep_unchosen.hpp), or nothing reads what it fills
+// If all bools of these tables of the action are false, a definition fills its target with a copy
+// of a table of the state (passes/lanes/keep_unchosen.hpp), or nothing reads what it fills
 // (passes/lanes/skip_unread.hpp).
 struct Unchosen {
     std::vector<BufferId> choices;

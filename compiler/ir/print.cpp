@@ -420,12 +420,15 @@ class Printer {
     }
 
     std::string text(const Select& form, Scalar, Precedence) const {
-        constexpr std::string_view how[] = {"", " both in packs", " both", " mostly first", " by a jump"};
+        constexpr std::string_view how[] = {"", " both in packs", " both", " mostly first",
+                                            " by a jump"};
         return fmt::format("select{}({})", how[static_cast<std::size_t>(form.evaluated)],
                            list({form.condition, form.then_value, form.else_value}));
     }
     std::string text(const Reduce& form, Scalar, Precedence) const {
-        const char* const elements = form.over_true ? " over true" : "";
+        const char* const elements = form.over_true         ? " over true"
+                                     : form.several_at_once ? " several at once"
+                                                            : "";
         return fmt::format("{}{}[{}]({})", rddlc::name_of(form.op), elements,
                            binding(form.variable, form.bounds), expression(form.body));
     }

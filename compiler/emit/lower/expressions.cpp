@@ -64,6 +64,17 @@ Expressions::ObjectNames Expressions::enter(ir::Nest nest) {
     return {several_->context, several_->objects};
 }
 
+Expression Expressions::context_parameter(bool is_used, const std::string& name) {
+    return is_used ? Expression{tree::Declared{"auto&", name}} : word("auto&");
+}
+
+std::string Expressions::count_of(std::span<const ir::VariableId> variables) const {
+    std::string count = unit_.size_of(unit_.program[variables.front()]);
+    for (const ir::VariableId variable : variables.subspan(1))
+        count += " * " + unit_.size_of(unit_.program[variable]);
+    return count;
+}
+
 void Expressions::name(ir::NodeId id, const std::string& name) {
     const auto [known, is_new] = named_.try_emplace(id, name);
     namings_.push_back({id, is_new ? std::nullopt : std::optional(known->second)});
@@ -457,6 +468,32 @@ std::optional<Expression> Expressions::draw_of_row(const ir::Node& binder) {
     arguments.push_back(elements(record(shares->weight.buffer),
                                  std::span(shares->weight.indices).first(shares->axis)));
     return tree::call("rddl::sample::discrete_of_row", std::move(arguments));
+}
+
+std::optional<ir::ReductionNest> Expressions::several_at_once(const ir::Node& binder) const {
+    const auto* outermost = std::get_if<ir::Reduce>(&binder.form);
+    if (!outermost || !outermost->several_at_once) return std::nullopt;
+    ir::ReductionNest nest{outermost->op, {outermost->variable}, outermost->body};
+    if (const auto inner = ir::reduction_nest(unit_.program, nest.body);
+        inner && inner->op == nest.op) {
+        nest.variables.insert(nest.variables.end(), inner->variables.begin(),
+                              inner->variables.end());
+        nest.body = inner->body;
+    }
+    return nest;
+}
+
+// "rddl::for_all_objects<link_count * link_count>(context, [&](auto&, auto u_d) { ... })"
+Expression Expressions::quantifier_of_objects(const ir::ReductionNest& nest,
+                                              const ObjectNames& names, tree::Block test) {
+    const bool has_context = std::exchange(uses_.context, true);
+    const char* const function =
+        nest.op == Reduction::Exists ? "rddl::exists_object<" : "rddl::for_all_objects<";
+    tree::Expressions parameters = {context_parameter(has_context, names.context),
+                                    {tree::Declared{"auto", names.objects}}};
+    return tree::call(
+        function + count_of(nest.variables) + ">",
+        list(word("context"), Expression{tree::Lambda{std::move(parameters), std::move(test)}}));
 }
 
 ir::NodeId Expressions::bound_value(const ir::Node& binder) const {

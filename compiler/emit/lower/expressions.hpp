@@ -6,6 +6,7 @@
 #include "emit/names/identifiers.hpp"
 #include "ir/ir.hpp"
 #include "ir/nest.hpp"
+#include "ir/reduction_nest.hpp"
 #include "ir/shares.hpp"
 
 #include <cstddef>
@@ -65,6 +66,15 @@ class Expressions {
         if (auto any = any_in_common_rows(binder)) return *std::move(any);
         if (auto sum = sum_where_true(binder)) return *std::move(sum);
         if (auto draw = draw_of_row(binder)) return *std::move(draw);
+        if (const auto nest = several_at_once(binder)) {
+            const Mark before = mark();
+            const ObjectNames names = enter({nest->variables, nullptr});
+            uses_.context = false;  // whether the test uses its own
+            tree::Block test = body(nest->body);
+            leave_nest();
+            return_to(before);
+            return quantifier_of_objects(*nest, names, std::move(test));
+        }
         const auto shares = shares_of(binder);
         tree::Expressions arguments = binder_arguments(binder);
         if (shares) arguments.push_back(lower(shares->total));
@@ -111,6 +121,10 @@ class Expressions {
     // Whether what has been lowered since then looks at few bits, of each object its own.
     bool looks_at_few_bits() const { return several_->looks_at_few_bits; }
     void leave_nest() { several_.reset(); }
+    // "auto& several"; without the name where the body does not use it.
+    static tree::Expression context_parameter(bool is_used, const std::string& name);
+    // The number of combinations of the variables: "link_count * link_count".
+    std::string count_of(std::span<const ir::VariableId> variables) const;
     // The arguments of draws and branches.
     std::string context() const { return several_ ? several_->context : "context"; }
     std::string claim(std::string_view wish) { return scope_.claim(wish); }
@@ -171,6 +185,10 @@ class Expressions {
     ir::NodeId bound_value(const ir::Node& binder) const;
     // The row or table of which such a sum visits the true elements.
     tree::Expression bools_of(const ir::Reduce& reduce);
+    // The exists or forall, if it tests several objects at once.
+    std::optional<ir::ReductionNest> several_at_once(const ir::Node& binder) const;
+    tree::Expression quantifier_of_objects(const ir::ReductionNest& nest, const ObjectNames& names,
+                                           tree::Block test);
     tree::Expressions binder_arguments(const ir::Node& binder);
     // "rddl::Index r"; without the name where the body does not use it.
     tree::Expression parameter(ir::VariableId variable, ir::NodeId body) const;

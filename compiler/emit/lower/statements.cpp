@@ -250,9 +250,7 @@ void FunctionBody::over_several_objects(const ir::Loop& loop, bool is_from_start
     const auto before = expressions_.mark();
     const ir::Nest nest = ir::nest_of(loop);
     const auto [context, objects] = expressions_.enter(nest);
-    std::string count = expressions_.unit().size_of(program()[nest.variables[0]]);
-    for (const ir::VariableId variable : std::span(nest.variables).subspan(1))
-        count += " * " + expressions_.unit().size_of(program()[variable]);
+    const std::string count = expressions_.count_of(nest.variables);
 
     const tree::Expressions numbers =
         loop.clearances ? numbers_near(*loop.clearances) : tree::Expressions{};
@@ -265,9 +263,8 @@ void FunctionBody::over_several_objects(const ir::Loop& loop, bool is_from_start
         return_value(found->operands.back());
     });
     const bool has_context = std::exchange(expressions_.uses().context, true);
-    tree::Expressions parameters = {
-        has_context ? tree::Expression{tree::Declared{"auto&", context}} : tree::word("auto&"),
-        {tree::Declared{"auto", objects}}};
+    tree::Expressions parameters = {Expressions::context_parameter(has_context, context),
+                                    {tree::Declared{"auto", objects}}};
     tree::append(parameters, numbers);
     tree::Expression lambda{tree::Lambda{std::move(parameters), std::move(body)}};
     const bool is_unrolled = expressions_.looks_at_few_bits() &&

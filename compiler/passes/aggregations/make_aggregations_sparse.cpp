@@ -310,12 +310,14 @@ class Rewriting {
     std::optional<ir::NodeId> sparse_if_finite(ir::NodeId id, const Relation& found,
                                                const std::vector<ir::NodeId>& doubtful,
                                                Scope& outer) {
-        const auto [op, variable, body, bounds, over_true] =
-            std::get<ir::Reduce>(program_[id].form);
+        const ir::Reduce sum =
+            std::get<ir::Reduce>(program_[id].form);  // new nodes move the others
+        const ir::VariableId variable = sum.variable;
+        const ir::NodeId body = sum.body;
         Scope scope = scope_for(found, {variable}, outer);
-        const auto is_of_columns = [&, only = variable](ir::NodeId factor) {
+        const auto is_of_columns = [&](ir::NodeId factor) {
             const ir::Properties& properties = builder_.properties(factor);
-            return properties.free_variables == std::vector{only} && !properties.random;
+            return properties.free_variables == std::vector{variable} && !properties.random;
         };
         if (!program_.only_moderate || outer.outer || found.tuples.empty() ||
             scope.relation.count() > entries_left_ ||
@@ -333,7 +335,7 @@ class Rewriting {
             are_finite.push_back(builder_.reduce(Reduction::ForAll, variable, is_zero));
         }
         const ir::NodeId all = ir::joined(builder_, Operator::And, are_finite);
-        const ir::NodeId sparse = over_entries(op, body, scope);
+        const ir::NodeId sparse = over_entries(sum.op, body, scope);
         return builder_.select(all, sparse, dense(id, outer), ir::Evaluated::MostlyFirst);
     }
 

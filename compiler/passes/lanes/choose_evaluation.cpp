@@ -1,10 +1,13 @@
 #include "passes/lanes/choose_evaluation.hpp"
 
 #include "ir/analysis.hpp"
+#include "ir/common_rows.hpp"
 #include "ir/nest.hpp"
+#include "ir/reduction_nest.hpp"
 #include "ir/rewrite.hpp"
 #include "ir/row_of_bools.hpp"
 #include "passes/analyses/few_true.hpp"
+#include "passes/analyses/object_lanes.hpp"
 
 #include <algorithm>
 #include <array>
@@ -35,6 +38,9 @@ class Gathering {
     ir::Program run() && {
         for (ir::Definition& definition : program_.step) gather_in(definition.body);
         gather_in(program_.reward.body);
+        for (auto* conditions :
+             {&program_.preconditions, &program_.invariants, &program_.terminations})
+            for (ir::Computation& condition : *conditions) quantify_in(condition);
         return ir::collect_garbage(std::move(program_));
     }
 
@@ -55,6 +61,39 @@ class Gathering {
                     id = gathered(id, nest, known);
             });
         }
+    }
+
+    void quantify_in(ir::Computation& condition) {
+        std::map<ir::NodeId, ir::NodeId> known;
+        const auto change = [&](ir::NodeId& id) {
+            id = ir::replace_in(builder_, id, known,
+                                [&](ir::NodeId each) { return quantified(each); });
+        };
+        ir::change_roots(condition.body, change);
+        change(condition.value);
+    }
+
+    // An exists or forall that tests several objects at once; common rows are looked at as words.
+    std::optional<ir::NodeId> quantified(ir::NodeId id) {
+        const auto nest = ir::reduction_nest(program_, id);
+        if (!nest || (nest->op != Reduction::Exists && nest->op != Reduction::ForAll) ||
+            ir::common_rows(program_, std::get<ir::Reduce>(program_[id].form)))
+            return std::nullopt;
+        const ir::Nest objects{nest->variables, nullptr};
+        const ObjectLanes several(
+            program_,
+            [&](ir::NodeId each) -> const ir::Properties& { return builder_.properties(each); },
+            objects);
+        if (!several.are_enough(ir::Scalar::Real) || !several.can_evaluate(nest->body) ||
+            !ir::is_droppable(builder_.properties(nest->body)))
+            return std::nullopt;
+        ++report_["conditions over several objects at once"];
+        std::map<ir::NodeId, ir::NodeId> known;
+        const ir::NodeId body = gathered(nest->body, objects, known);
+        const std::span<const ir::VariableId> variables = nest->variables;
+        return builder_.reduce(nest->op, variables.front(),
+                               ir::reduced(builder_, nest->op, variables.subspan(1), body), {},
+                               false, true);
     }
 
     ir::NodeId gathered(ir::NodeId id, const ir::Nest& nest,

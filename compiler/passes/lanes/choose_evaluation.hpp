@@ -10,6 +10,11 @@
 //     sum[x in zone](select(state.on[x], state.heat[x], 0.0))
 //                              =>  sum over true[x in zone](select ...)
 //
+// conditions test several objects at once
+//
+//     forall[x in zone](state.heat[x] >= 0.0)
+//                              =>  forall several at once[x in zone](adjacent state.heat[x] >= 0.0)
+//
 // and in loops over several objects at once
 //
 //     state.on[x]              =>  adjacent state.on[x]
@@ -20,7 +25,8 @@
 //                              =>  sample valid bernoulli@0[x](chances RATE[x])
 //     sample bernoulli@0[x](select(state.on[x] > 2, RATE[x], NOISE[x]))
 //                              =>  sample valid bernoulli@0[x](select both(
-//                                      adjacent state.on[x] > 2, chances RATE[x], chances NOISE[x]))
+//                                      adjacent state.on[x] > 2, chances RATE[x], chances
+//                                      NOISE[x]))
 //
 // and in those over words of bools, which draw for the objects that need it
 //

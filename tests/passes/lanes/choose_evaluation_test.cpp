@@ -198,6 +198,39 @@ TEST(ChooseEvaluation, VisitsAllElementsOfOtherSums) {
         << "a short row";
 }
 
+// The invariant of nine pairs, after the pass.
+std::string chosen_for_invariant(const std::string& invariant) {
+    const Problem problem = {.pvariables =
+                                 "v(obj, obj) : { state-fluent, real, default = 0.0 };\n"
+                                 "w(obj) : { state-fluent, real, default = 0.0 };\n"
+                                 "p(obj) : { state-fluent, bool, default = false };\n"
+                                 "a : { action-fluent, bool, default = false };",
+                             .cpfs = "v'(?o, ?q) = v(?o, ?q); w'(?o) = w(?o); p'(?o) = p(?o);",
+                             .blocks = "state-invariants { " + invariant + "; };"};
+    passes::Report report;
+    const ir::Program program = valid(passes::choose_evaluation(grounded(problem), report));
+    const std::string text = ir::print(program);
+    const std::size_t begin = text.find("invariant");
+    return text.substr(begin, text.find("\n", begin) - begin);
+}
+
+TEST(ChooseEvaluation, TestsSeveralObjectsOfAConditionAtOnce) {
+    EXPECT_EQ(chosen_for_invariant("forall_{?o : obj, ?q : obj} [v(?o, ?q) >= 0.0]"),
+              "invariant 0 = forall several at once[o in obj](forall[q in obj]"
+              "(adjacent state.v[o, q] >= 0.0))");
+    EXPECT_EQ(chosen_for_invariant("~exists_{?o : obj, ?q : obj} [v(?o, ?q) < 0.0]"),
+              "invariant 0 = !exists several at once[o in obj](exists[q in obj]"
+              "(adjacent state.v[o, q] < 0.0))");
+}
+
+// Few objects, elements that are not theirs, and what may fault are tested one by one.
+TEST(ChooseEvaluation, TestsOtherConditionsOneByOne) {
+    for (const char* invariant :
+         {"forall_{?o : obj} [w(?o) >= 0.0]", "forall_{?o : obj, ?q : obj} [v(?q, ?o) >= w(?o)]",
+          "forall_{?o : obj, ?q : obj} [v(?o, ?q) / w(?o) >= 0.0]"})
+        EXPECT_EQ(chosen_for_invariant(invariant).find("several"), std::string::npos) << invariant;
+}
+
 TEST(ChooseEvaluation, SaysThatObjectsLoadFromOneRow) {
     EXPECT_EQ(chosen_for_rows("exists_{?w : obj} [p(?w, ?o) ^ q(?w)]", "bool"),
               "exists[w in obj](in row state.p[w, o] && state.q[w])");
