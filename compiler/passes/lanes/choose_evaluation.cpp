@@ -38,9 +38,13 @@ class Gathering {
     ir::Program run() && {
         for (ir::Definition& definition : program_.step) gather_in(definition.body);
         gather_in(program_.reward.body);
+        quantify_in(program_.reward.value, false);
         for (auto* conditions :
              {&program_.preconditions, &program_.invariants, &program_.terminations})
-            for (ir::Computation& condition : *conditions) quantify_in(condition);
+            for (ir::Computation& condition : *conditions) {
+                ir::change_roots(condition.body, [&](ir::NodeId& id) { quantify_in(id, true); });
+                quantify_in(condition.value, true);
+            }
         return ir::collect_garbage(std::move(program_));
     }
 
@@ -48,6 +52,9 @@ class Gathering {
     void gather_in(ir::Block& block) {
         for (ir::Statement& statement : block) {
             auto* const loop = std::get_if<ir::Loop>(&statement.form);
+            if (auto* store = std::get_if<ir::Store>(&statement.form))
+                quantify_in(store->value, false);
+            if (auto* let = std::get_if<ir::Let>(&statement.form)) quantify_in(let->value, false);
             if (!loop) continue;
             if (!loop->several_at_once) {
                 gather_in(loop->body);
@@ -63,18 +70,16 @@ class Gathering {
         }
     }
 
-    void quantify_in(ir::Computation& condition) {
+    void quantify_in(ir::NodeId& id, bool is_condition) {
         std::map<ir::NodeId, ir::NodeId> known;
-        const auto change = [&](ir::NodeId& id) {
-            id = ir::replace_in(builder_, id, known,
-                                [&](ir::NodeId each) { return quantified(each); });
-        };
-        ir::change_roots(condition.body, change);
-        change(condition.value);
+        id = ir::replace_in(builder_, id, known,
+                            [&](ir::NodeId each) { return quantified(each, is_condition); });
     }
 
-    // An exists or forall that tests several objects at once; common rows are looked at as words.
-    std::optional<ir::NodeId> quantified(ir::NodeId id) {
+    // An exists or forall that tests several objects at once. Common rows are looked at as words.
+    // In a step the first object often decides, so elements that lie apart are not worth reading
+    // there.
+    std::optional<ir::NodeId> quantified(ir::NodeId id, bool is_condition) {
         const auto nest = ir::reduction_nest(program_, id);
         if (!nest || (nest->op != Reduction::Exists && nest->op != Reduction::ForAll) ||
             ir::common_rows(program_, std::get<ir::Reduce>(program_[id].form)))
@@ -85,15 +90,24 @@ class Gathering {
             [&](ir::NodeId each) -> const ir::Properties& { return builder_.properties(each); },
             objects);
         if (!several.are_enough(ir::Scalar::Real) || !several.can_evaluate(nest->body) ||
-            !ir::is_droppable(builder_.properties(nest->body)))
+            !ir::is_droppable(builder_.properties(nest->body)) ||
+            (!is_condition && chooses_elements(nest->body, objects)))
             return std::nullopt;
-        ++report_["conditions over several objects at once"];
+        ++report_["quantifiers over several objects at once"];
         std::map<ir::NodeId, ir::NodeId> known;
         const ir::NodeId body = gathered(nest->body, objects, known);
         const std::span<const ir::VariableId> variables = nest->variables;
         return builder_.reduce(nest->op, variables.front(),
                                ir::reduced(builder_, nest->op, variables.subspan(1), body), {},
                                false, true);
+    }
+    // Whether objects read elements that do not lie side by side.
+    bool chooses_elements(ir::NodeId id, const ir::Nest& nest) const {
+        return ir::any_node_of(program_, id, [&](ir::NodeId each) {
+            const auto* load = std::get_if<ir::Load>(&program_[each].form);
+            return load && ir::depends_on_any(builder_.properties(each), nest.variables) &&
+                   !ir::ends_with(program_, load->indices, nest);
+        });
     }
 
     ir::NodeId gathered(ir::NodeId id, const ir::Nest& nest,

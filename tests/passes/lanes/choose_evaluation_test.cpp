@@ -198,29 +198,52 @@ TEST(ChooseEvaluation, VisitsAllElementsOfOtherSums) {
         << "a short row";
 }
 
-// The invariant of nine pairs, after the pass.
-std::string chosen_for_invariant(const std::string& invariant) {
+// The invariant of nine pairs, or the reward, after the pass.
+std::string chosen_line(const std::string& name, const std::string& invariant,
+                        const std::string& reward = "0") {
     const Problem problem = {.pvariables =
+                                 "NEXT(obj, obj) : { non-fluent, obj };\n"
                                  "v(obj, obj) : { state-fluent, real, default = 0.0 };\n"
                                  "w(obj) : { state-fluent, real, default = 0.0 };\n"
-                                 "p(obj) : { state-fluent, bool, default = false };\n"
                                  "a : { action-fluent, bool, default = false };",
-                             .cpfs = "v'(?o, ?q) = v(?o, ?q); w'(?o) = w(?o); p'(?o) = p(?o);",
-                             .blocks = "state-invariants { " + invariant + "; };"};
+                             .cpfs = "v'(?o, ?q) = v(?o, ?q); w'(?o) = w(?o);",
+                             .reward = reward,
+                             .blocks = "state-invariants { " + invariant + "; };",
+                             .non_fluents =
+                                 "NEXT(b1, b1) = @b1; NEXT(b1, b2) = @b1; NEXT(b1, b3) = @b2; "
+                                 "NEXT(b2, b1) = @b3; NEXT(b2, b2) = @b1; NEXT(b2, b3) = @b2; "
+                                 "NEXT(b3, b1) = @b2; NEXT(b3, b2) = @b1; NEXT(b3, b3) = @b2;"};
     passes::Report report;
     const ir::Program program = valid(passes::choose_evaluation(grounded(problem), report));
     const std::string text = ir::print(program);
-    const std::size_t begin = text.find("invariant");
+    const std::size_t begin = text.find("\n" + name) + 1;
     return text.substr(begin, text.find("\n", begin) - begin);
+}
+std::string chosen_for_invariant(const std::string& invariant) {
+    return chosen_line("invariant", invariant);
+}
+std::string chosen_for_reward(const std::string& reward) {
+    return chosen_line("reward", "forall_{?o : obj} [w(?o) >= 0.0]", reward);
 }
 
 TEST(ChooseEvaluation, TestsSeveralObjectsOfAConditionAtOnce) {
     EXPECT_EQ(chosen_for_invariant("forall_{?o : obj, ?q : obj} [v(?o, ?q) >= 0.0]"),
               "invariant 0 = forall several at once[o in obj](forall[q in obj]"
               "(adjacent state.v[o, q] >= 0.0))");
-    EXPECT_EQ(chosen_for_invariant("~exists_{?o : obj, ?q : obj} [v(?o, ?q) < 0.0]"),
-              "invariant 0 = !exists several at once[o in obj](exists[q in obj]"
-              "(adjacent state.v[o, q] < 0.0))");
+    EXPECT_EQ(
+        chosen_for_invariant("~exists_{?o : obj, ?q : obj} [v(NEXT(?o, ?q), NEXT(?o, ?q)) < 0.0]"),
+        "invariant 0 = !exists several at once[o in obj](exists[q in obj]"
+        "(own state.v[adjacent NEXT[o, q], adjacent NEXT[o, q]] < 0.0))");
+}
+
+// In the step and the reward, elements that lie apart are tested one by one.
+TEST(ChooseEvaluation, TestsSeveralObjectsOfARewardAtOnce) {
+    EXPECT_EQ(chosen_for_reward("exists_{?o : obj, ?q : obj} [v(?o, ?q) > 1.0]"),
+              "reward = real(exists several at once[o in obj](exists[q in obj]"
+              "(adjacent state.v[o, q] > 1.0)))");
+    EXPECT_EQ(
+        chosen_for_reward("exists_{?o : obj, ?q : obj} [v(NEXT(?o, ?q), NEXT(?o, ?q)) > 1.0]"),
+        "reward = real(exists[o in obj](exists[q in obj](state.v[NEXT[o, q], NEXT[o, q]] > 1.0)))");
 }
 
 // Few objects, elements that are not theirs, and what may fault are tested one by one.
