@@ -3,6 +3,7 @@
 #include "ir/rewrite.hpp"
 #include "passes/analyses/constant_values.hpp"
 #include "passes/analyses/counters.hpp"
+#include "passes/analyses/row_kinds.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -23,9 +24,6 @@ constexpr double worth_a_count_table = 6;
 constexpr double elements_for_an_operation = 64;
 // The same where a test comes first whether the table has the element.
 constexpr double worth_a_tested_table = 16;
-// A table of several kinds of objects has this many times fewer rows, at least.
-constexpr std::size_t objects_of_a_kind = 4;
-constexpr std::size_t most_kinds = 64;
 
 // How an expression depends on what differs between environments.
 struct Dependence {
@@ -60,11 +58,11 @@ class CountTabulation {
   private:
     // --------------------------------------------------------------------------- finding
 
-    // For the users of a node. A choice of ints by a count is no count of its own.
+    // For the users of a node. An int that a count chooses is no count of its own.
     Dependence dependence_of(ir::NodeId id) const {
         const ir::Properties& properties = builder_.properties(id);
         if (properties.uniform || !is_count(id)) return dependence_on_operands(id);
-        if (!std::holds_alternative<ir::Select>(program_[id].form)) return {.count = id};
+        if (!is_choice(id)) return {.count = id};
         const Dependence chosen = dependence_on_operands(id);
         return chosen.only_count ? chosen : Dependence{.count = id};
     }
@@ -89,6 +87,17 @@ class CountTabulation {
         const ir::Properties& properties = builder_.properties(id);
         return program_[id].type == ir::Scalar::Int && !properties.may_fault && properties.range &&
                properties.range->upper - properties.range->lower < largest_range;
+    }
+    // A choice, a bool as a number, or one of them times a constant.
+    bool is_choice(ir::NodeId id) const {
+        if (std::holds_alternative<ir::Select>(program_[id].form)) return true;
+        if (const auto* convert = std::get_if<ir::Convert>(&program_[id].form))
+            return program_[convert->operand].type == ir::Scalar::Bool;
+        const auto* product = std::get_if<ir::Apply>(&program_[id].form);
+        if (!product || product->op != Operator::Multiply) return false;
+        const ir::NodeId a = product->operands.front(), b = product->operands.back();
+        return (builder_.properties(a).uniform && is_choice(b)) ||
+               (builder_.properties(b).uniform && is_choice(a));
     }
     bool is_counter(ir::NodeId id) const {
         const auto* load = std::get_if<ir::Load>(&program_[id].form);
@@ -279,49 +288,12 @@ class CountTabulation {
 
     // ---------------------------------------------------------------------------- tables
 
-    // A row for each object, in row-major order.
-    struct Rows {
-        std::size_t cases;
-        std::vector<ir::Value> values;
-        std::vector<std::size_t> reached;  // by object: how many of its row's elements are read
-
-        std::span<const ir::Value> reached_by(std::size_t object) const {
-            return std::span(values).subspan(object * cases, reached[object]);
-        }
-    };
-    // Objects of one kind have the same row, as far as both reach.
-    struct Kinds {
-        std::vector<std::size_t> examples;  // of each kind, the object that reaches furthest
-        std::vector<ir::Value> of_objects;  // ints
-    };
     struct Place {
         ir::BufferId table;
         std::vector<ir::NodeId> indices;  // except that of the count
     };
 
-    // Nothing if the objects are of too many kinds.
-    static std::optional<Kinds> kinds_of(const Rows& rows) {
-        Kinds kinds;
-        for (std::size_t object = 0; object < rows.reached.size(); ++object) {
-            const auto row = rows.reached_by(object);
-            const auto known = std::ranges::find_if(kinds.examples, [&](std::size_t example) {
-                const auto other = rows.reached_by(example);
-                const std::size_t both = std::min(row.size(), other.size());
-                return are_identical(row.first(both), other.first(both));
-            });
-            kinds.of_objects.push_back(std::int64_t{known - kinds.examples.begin()});
-            if (known == kinds.examples.end())
-                kinds.examples.push_back(object);
-            else if (row.size() > rows.reached[*known])
-                *known = object;
-            const std::size_t count = kinds.examples.size();
-            const std::size_t most = std::min(rows.reached.size() / objects_of_a_kind, most_kinds);
-            if (count > 1 && count > most) return std::nullopt;
-        }
-        return kinds;
-    }
-
-    Place table_of_kinds(const std::string& name, const Rows& rows, const Kinds& kinds,
+    Place table_of_kinds(const std::string& name, const Rows& rows, const RowKinds& kinds,
                          const std::vector<ir::VariableId>& variables) {
         if (kinds.examples.size() == 1) return {new_table(name, rows, kinds.examples, {}), {}};
         ir::Buffer of_objects{.name = name_ + "-kind",

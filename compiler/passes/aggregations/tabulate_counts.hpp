@@ -12,6 +12,7 @@
 // So does a chain of choices by one int, as domains write that have enumerations:
 //
 //     select(state.phase == 0, 1, select(state.phase == 1, 2, ...)) => phase-by-phase[state.phase]
+//     int(state.die == 0) + 2 * int(state.die == 1) + ...           => value-by-die[state.die]
 //
 // Reals and ints only, and only where no entry faults and enough work is saved for the size of the
 // table.

@@ -45,6 +45,17 @@ TEST(TabulateCounts, LooksUpWhatTheChainOfAnEnumerationChooses) {
         std::string::npos);
 }
 
+// A bool as a number, or what is chosen times a constant, is no count of its own.
+TEST(TabulateCounts, LooksUpSumsOfCasesThatHold) {
+    const std::string count = "(sum_{?o : obj} p(?o))";
+    EXPECT_EQ(tabulated("7 * (" + count + " == 0) + 2 * (" + count + " == 1) + 5 * (" + count +
+                        " == 2) + 4 * (" + count + " == 3)"),
+              "x-by-count[sum[o in obj](int(state.p[o]))]");
+    EXPECT_EQ(tabulated("sum_{?u : obj} [E(?u) * (if (" + count + " == 1) then 3 else if (" +
+                        count + " == 2) then 5 else 7)] * 0.5"),
+              "x-by-count[sum[o in obj](int(state.p[o]))]");
+}
+
 TEST(TabulateCounts, HasARowForEachObject) {
     EXPECT_EQ(tabulated("sum_{?u : obj} [v(?u) * exp[W(?u) * sum_{?o : obj} p(?o)]]"),
               "sum[u in obj](state.v[u] * x-by-count[u, sum[o in obj](int(state.p[o]))])");
