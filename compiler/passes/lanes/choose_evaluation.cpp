@@ -80,9 +80,11 @@ class Gathering {
     // In a step the first object often decides, so elements that lie apart are not worth reading
     // there.
     std::optional<ir::NodeId> quantified(ir::NodeId id, bool is_condition) {
+        const auto* reduce = std::get_if<ir::Reduce>(&program_[id].form);
+        if (reduce && reduce->several_at_once) return id;
         const auto nest = ir::reduction_nest(program_, id);
         if (!nest || (nest->op != Reduction::Exists && nest->op != Reduction::ForAll) ||
-            ir::common_rows(program_, std::get<ir::Reduce>(program_[id].form)))
+            ir::common_rows(program_, *reduce))
             return std::nullopt;
         const ir::Nest objects{nest->variables, nullptr};
         const ObjectLanes several(
