@@ -55,17 +55,31 @@ inline constexpr bool reads_checked_actions = [] {
     return false;
 }();
 
-// A step reads few bytes of rows with many bools, but mostly all small tables: those of a later
-// environment are asked for.
-template <class List>
-RDDL_INLINE void prefetch_small_tables(const ColumnTable<List>& columns, const std::byte* rows,
-                                       std::int64_t b, std::int64_t environment_count) {
-    constexpr std::int64_t ahead = 4, most = 64;
-    if (b + ahead >= environment_count) return;
-    const std::byte* const later = rows + (b + ahead) * columns.row_size;
-    for_each_column(columns, [&](const Column& column) RDDL_INLINE_LAMBDA {
-        if (column.count <= most) __builtin_prefetch(later + column.row);
-    });
+// Whether the caller goes through an array of actions, so that later ones lie behind this row.
+template <class L>
+RDDL_INLINE bool goes_on(const std::byte* row, Episodes<L>& episodes) {
+    const bool is_behind = row > episodes.last_action;
+    episodes.last_action = row;
+    return is_behind;
+}
+
+// Asks for what a later step, or one of a later environment, reads of its row. Of rows with many
+// bools it reads few bytes, but mostly all small tables; shorter rows than half a line of the cache
+// come in time without.
+template <Engine E, class L>
+RDDL_INLINE void prefetch_later_row(const Blocks<L>& blocks, std::int64_t b, const std::byte* row) {
+    constexpr const auto& columns = E::action_columns;
+    constexpr std::int64_t ahead = 4, most_elements = 64, least_size = 32;
+    if constexpr (columns.row_size < least_size) return;
+    if constexpr (takes_bools_as_given<E>) {
+        if (b + ahead >= blocks.environment_count && !goes_on(row, blocks.episodes[b])) return;
+        for_each_column(columns, [&](const Column& column) RDDL_INLINE_LAMBDA {
+            if (column.count <= most_elements)
+                __builtin_prefetch(row + ahead * columns.row_size + column.row);
+        });
+    } else if (goes_on(row, blocks.episodes[b])) {
+        prefetch_rows(row, columns.row_size);
+    }
 }
 
 // `room` is for a block that is not a row.
@@ -77,8 +91,7 @@ RDDL_ALWAYS_INLINE const std::byte* action_of_block(const E& engine, const Block
     const std::int64_t first = b * L::width * columns.row_size;
     if constexpr (L::width == 1) {
         if (actions.block) return actions.block;
-        if constexpr (takes_bools_as_given<E>)
-            prefetch_small_tables(columns, actions.rows, b, blocks.environment_count);
+        if constexpr (TypedEngine<E>) prefetch_later_row<E>(blocks, b, actions.rows + first);
         const bool is_block = std::is_same_v<L, Scalar> || !columns.has_reals;
         if (is_block && (takes_bools_as_given<E> || has_plain_bools(columns, actions.rows + first)))
             return actions.rows + first;

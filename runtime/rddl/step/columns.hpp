@@ -236,6 +236,20 @@ using InRecord = typename TypeInRecord<T>::type;
 constexpr std::byte bool_of(std::byte byte) {
     return std::byte{byte != std::byte{0}};
 }
+template <class Word>
+RDDL_INLINE Word word_at(const std::byte* bytes) {
+    Word word;
+    __builtin_memcpy(&word, bytes, sizeof word);
+    return word;
+}
+// All bits of one to seven bytes, some of them at other places: two words hold them all.
+RDDL_INLINE std::uint64_t last_bytes(const std::byte* bytes, std::int64_t count) {
+    if (count >= 4)
+        return word_at<std::uint32_t>(bytes) | word_at<std::uint32_t>(bytes + count - 4);
+    if (count >= 2)
+        return word_at<std::uint16_t>(bytes) | word_at<std::uint16_t>(bytes + count - 2);
+    return std::to_integer<std::uint64_t>(*bytes);
+}
 // Whether each of these bytes is 0 or 1.
 RDDL_INLINE bool are_plain(const std::byte* bytes, std::int64_t count) {
     constexpr std::uint64_t others = 0xFEFEFEFEFEFEFEFE;
@@ -257,12 +271,8 @@ RDDL_INLINE bool are_plain(const std::byte* bytes, std::int64_t count) {
     }
 #endif
     for (int i = 0; k > 0 && i < simd::lanes; ++i) all |= some[i];
-    for (; k + 8 <= count; k += 8) {
-        std::uint64_t chunk;
-        __builtin_memcpy(&chunk, bytes + k, sizeof chunk);
-        all |= chunk;
-    }
-    for (; k < count; ++k) all |= std::to_integer<std::uint64_t>(bytes[k]);
+    for (; k + 8 <= count; k += 8) all |= word_at<std::uint64_t>(bytes + k);
+    if (k < count) all |= last_bytes(bytes + k, count - k);
     return (all & others) == 0;
 }
 

@@ -62,6 +62,7 @@ struct alignas(64) Episodes {
     Bool has_fault{false};   // see `faults`
     std::int64_t state = 0;  // which of the two records of the block it is: 0 or 1
     StepCounts<L> steps;     // made in this episode
+    const std::byte* last_action = nullptr;  // the row of its last step, of one environment
 
     Int number{std::int64_t{-1}};  // episodes ended before this one
     Word key_low{std::uint64_t{0}}, key_high{std::uint64_t{0}};

@@ -267,5 +267,22 @@ TEST(Columns, WithBytesOtherThan0And1) {
     EXPECT_TRUE(has_plain_bools(columns, row.data()));
 }
 
+// One table of bools, of each length.
+TEST(Columns, LookAtEachByteForOthersThan0And1) {
+    for (std::int64_t count = 1; count <= bool_count; ++count) {
+        Columns columns;
+        columns.has_bools = true;
+        columns.list = {{.scalar = RDDL_BOOL, .count = count, .row = 0}};
+        std::vector<std::byte> row(static_cast<std::size_t>(count) + 8, std::byte{2});
+        std::memset(row.data(), 1, static_cast<std::size_t>(count));
+        EXPECT_TRUE(has_plain_bools(columns, row.data())) << count;
+        for (std::size_t k = 0; k < static_cast<std::size_t>(count); ++k) {
+            row[k] = std::byte{2};
+            EXPECT_FALSE(has_plain_bools(columns, row.data())) << k << " of " << count;
+            row[k] = std::byte{0};
+        }
+    }
+}
+
 }  // namespace
 }  // namespace rddl

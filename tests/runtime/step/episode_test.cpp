@@ -301,5 +301,15 @@ TEST(Preconditions, AreReportedAndNotEnforced) {
     EXPECT_EQ(counters.causes[0], RDDL_RUNNING);
 }
 
+TEST(Episodes, KnowACallerWhoGoesThroughAnArrayOfActions) {
+    Episodes<Scalar> episodes;
+    const std::array<std::byte, 3> rows{};
+    detail::goes_on(&rows[0], episodes);
+    EXPECT_FALSE(detail::goes_on(&rows[0], episodes));  // one buffer for all steps
+    EXPECT_TRUE(detail::goes_on(&rows[1], episodes));
+    EXPECT_TRUE(detail::goes_on(&rows[2], episodes));
+    EXPECT_FALSE(detail::goes_on(&rows[0], episodes));  // the array from its begin on
+}
+
 }  // namespace
 }  // namespace rddl
