@@ -50,9 +50,10 @@ RandomCourse draw_course(const rddl_simulator& simulator, std::int64_t environme
     const std::int64_t limit = std::clamp(most_bytes / std::max<std::int64_t>(step_bytes, 1),
                                           least_steps, most_steps(environments));
 
-    rddl_batch_options options = course_options(environments);
-    options.thread_count = 0;
-    const solvers::BatchHandle batch = solvers::create_batch(simulator, options);
+    // One thread: several that have to share a processor wait for each other, and the course is
+    // short.
+    const solvers::BatchHandle batch =
+        solvers::create_batch(simulator, course_options(environments));
     solvers::RandomPolicy policy(*simulator.problem, 0);
     solvers::RandomActions random(simulator, policy, environments);
     std::vector<std::uint8_t> causes(static_cast<std::size_t>(environments));
