@@ -401,7 +401,7 @@ tree::Expression FunctionBody::near_object(const ir::Clearances& clearances,
                                  std::move(moves), std::move(lambda)));
 }
 
-// rddl::spread(next.at[c], rddl::union_of(moves_, rddl::bits(state.at[c]), action.move[c]));
+// rddl::spread(next.at[c], rddl::union_of<moves_>(rddl::bits(state.at[c]), action.move[c]));
 void FunctionBody::statement(const ir::Spread& spread) {
     const auto before = expressions_.mark();
     prepare({line_width}, spread.bits);
