@@ -315,8 +315,8 @@ struct Affected {
 };
 // The objects of a loop over bools whose element of one table is false keep that of another table.
 struct Chosen {
-    BufferId few;   // bools of the action, as many as the loop has objects
-    BufferId kept;  // bools of the state, of the same shape
+    BufferId few;                  // bools of the action, as many as the loop has objects
+    std::optional<BufferId> kept;  // bools of the state, of the same shape; absent: all are false
 };
 // An exists is false, without a look at its objects, where a table says so: for places in one of
 // its cells, and moves that are nearer to 0 than the cell's clearance.
@@ -338,7 +338,7 @@ struct Loop {
     // Then: one environment computes those alone (passes/lanes/visit_affected.hpp).
     std::optional<Affected> affected = {};
     // Its values are no words: one environment computes those that are chosen alone
-    // (passes/lanes/visit_chosen.hpp).
+    // (passes/lanes/visit_chosen.hpp, draw_for_chosen.hpp).
     std::optional<Chosen> chosen = {};
     // It quantifies (passes/lanes/tabulate_clearances.hpp).
     std::optional<Clearances> clearances = {};

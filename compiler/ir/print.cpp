@@ -273,10 +273,7 @@ class Printer {
         const std::string affected =
             loop.affected ? ", affected by " + element(loop.affected->few, {}) : "";
         const bool has_moves = loop.affected && loop.affected->moves;
-        const std::string chosen =
-            loop.chosen ? fmt::format(", chosen by {}, others {}", element(loop.chosen->few, {}),
-                                      element(loop.chosen->kept, {}))
-                        : "";
+        const std::string chosen = loop.chosen ? chosen_by(*loop.chosen) : "";
         writer_
             .line(fmt::format("for {}{}{}{}{}{}", binding(loop.variable), how, affected,
                               has_moves ? moved(*loop.affected->moves) : "", chosen,
@@ -286,6 +283,11 @@ class Printer {
         writer_.dedent();
     }
 
+    // ", chosen by action.take, others state.passed"
+    std::string chosen_by(const Chosen& chosen) {
+        return fmt::format(", chosen by {}, others {}", element(chosen.few, {}),
+                           chosen.kept ? element(*chosen.kept, {}) : "false");
+    }
     // ", moves at-moves[action.north, action.south]"
     std::string moved(const Moves& moves) {
         std::string choices;

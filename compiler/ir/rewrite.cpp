@@ -37,7 +37,7 @@ void change_tables(Block& block, const std::function<void(BufferId&)>& change) {
                 }
                 if (loop.chosen) {
                     change(loop.chosen->few);
-                    change(loop.chosen->kept);
+                    if (loop.chosen->kept) change(*loop.chosen->kept);
                 }
                 if (loop.clearances) {
                     change(loop.clearances->table);

@@ -616,15 +616,19 @@ class Verifier {
         }
         if (form.chosen) {
             const Buffer& few = program_[form.chosen->few];
-            const Buffer& kept = program_[form.chosen->kept];
-            require(few.storage == Storage::Action && few.scalar == Scalar::Bool &&
-                        kept.storage == Storage::State && kept.scalar == Scalar::Bool &&
-                        kept.shape == few.shape,
-                    "'{}' does not say which objects keep their elements of '{}'", few.name,
-                    kept.name);
+            require(few.storage == Storage::Action && few.scalar == Scalar::Bool,
+                    "'{}' does not choose objects", few.name);
+            if (form.chosen->kept) keeps(few, program_[*form.chosen->kept]);
         }
         if (form.clearances) near(*form.clearances);
         for (const Statement& each : form.body) statement(each, scope, readable);
+    }
+
+    void keeps(const Buffer& few, const Buffer& kept) {
+        require(kept.storage == Storage::State && kept.scalar == Scalar::Bool &&
+                    kept.shape == few.shape,
+                "'{}' does not say which objects keep their elements of '{}'", few.name,
+                kept.name);
     }
 
     void moves(const Moves& form, const Buffer& few) {

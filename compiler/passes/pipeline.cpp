@@ -44,8 +44,10 @@
 #include "passes/constants/tabulate_constant_fluents.hpp"
 #include "passes/constants/tabulate_constants.hpp"
 #include "passes/lanes/choose_evaluation.hpp"
+#include "passes/lanes/draw_for_chosen.hpp"
 #include "passes/lanes/evaluate_together.hpp"
 #include "passes/lanes/group_angles.hpp"
+#include "passes/lanes/join_cheap_cases.hpp"
 #include "passes/lanes/keep_unchosen.hpp"
 #include "passes/lanes/look_up_moves.hpp"
 #include "passes/lanes/name_elements.hpp"
@@ -489,11 +491,25 @@ constexpr Pass in_order[] = {
      "what only definitions read that an action may skip is skipped with them",
      {"keep_unchosen"},
      "it says which definitions these are"},
+    {"draw_for_chosen",
+     Phase::Lanes,
+     draw_for_chosen,
+     "draws that wait for an action's choice are made before their loop, for the chosen objects",
+     {"visit_chosen", "keep_unchosen"},
+     "loops and definitions that these skip keep their draws",
+     adds_tests},
+    {"join_cheap_cases",
+     Phase::Lanes,
+     join_cheap_cases,
+     "cases of a loop over several objects that cost next to nothing are one branch",
+     {"draw_for_chosen"},
+     "a condition that draws is a table there",
+     adds_tests},
     {"name_elements",
      Phase::Lanes,
      name_elements,
      "elements that several branches of a loop over words choose by place are chosen once",
-     {"visit_affected", "visit_chosen"},
+     {"visit_affected", "draw_for_chosen"},
      "these look for loops of one statement"},
     {"choose_evaluation",
      Phase::Lanes,

@@ -29,6 +29,7 @@
 #include <rddl/values/search.hpp>
 #include <rddl/values/tables.hpp>
 #include <rddl/values/true_elements.hpp>
+#include <rddl/values/unions.hpp>
 
 #include <array>
 #include <cstddef>

@@ -271,6 +271,23 @@ TEST(EmittedText, ComputesTheObjectsThatAnActionChooses) {
         1u);
 }
 
+// Half of them at most. Their draws wait for the action, and the loop reads them.
+TEST(EmittedText, DrawsForTheObjectsThatAnActionChooses) {
+    std::string text = problem(17);
+    text.replace(text.find("a(o) :"), 0, "stock(o) : { state-fluent, int, default = 0 };\n");
+    const std::string cpf = "on(?o) ^ Bernoulli(0.5) | a(?o);";
+    text.replace(text.find(cpf), cpf.size(),
+                 "a(?o); stock'(?o) = if (a(?o) ^ Bernoulli(0.5)) then 2 else if (on(?o)) then 3\n"
+                 "else if (Bernoulli(0.25)) then 1 else stock(?o);");
+    EXPECT_EQ(count(emitted(text), "rddl::for_chosen_objects<"), 0u);
+    text.replace(text.find("horizon"), 0, "max-nondef-actions = 8; ");
+    EXPECT_EQ(count(emitted(text),
+                    "        rddl::for_chosen_objects<o_count>(\n"
+                    "            context, action.a, scratch.a_draws, [&](auto& several, auto o) "
+                    "{\n"),
+              1u);
+}
+
 TEST(EmittedText, RoundsRealsWithoutInts) {
     std::string text = problem(2);
     const std::string reward = "sum_{?o : o} [W(?o) * on(?o)]";

@@ -167,11 +167,12 @@ Expression Expressions::bits_of(const ir::Bits& bits, std::string_view kind) {
                       {elements(record(bits.buffer), bits.indices)});
 }
 
-// "rddl::union_of(moves_, rddl::bits(state.at[c]), action.move[c])"
+// "rddl::union_of<moves_>(rddl::bits(state.at[c]), action.move[c])"
 Expression Expressions::lower(const ir::Node&, const ir::Union& form) {
-    tree::Expressions arguments = {record(form.masks), lower(form.bits)};
+    tree::Expressions arguments = {lower(form.bits)};
     append(arguments, all_of(form.row));
-    return tree::call("rddl::union_of", std::move(arguments));
+    return tree::call("rddl::union_of<" + unit_.names.buffers[form.masks.index] + ">",
+                      std::move(arguments));
 }
 
 Expression Expressions::lower(const ir::Node&, const ir::Local& local) {

@@ -244,6 +244,8 @@ void FunctionBody::statement(const ir::Loop& loop) {
 //                                        [&](auto& several, auto c) { ... });
 // rddl::for_chosen_objects<course_count>(context, action.take, state.passed, next.passed,
 //                                        [&](auto& several, auto c) { ... });
+// rddl::for_chosen_objects<tank_count>(context, action.fill, scratch.fills,
+//                                      [&](auto& several, auto t) { ... });
 // rddl::for_many_objects<cell_count>(context, [&](auto& several, auto c) { ... });
 // scratch.on_exists = rddl::exists_object<n>(context, [&](auto& several, auto x) { ... });
 void FunctionBody::over_several_objects(const ir::Loop& loop, bool is_from_start) {
@@ -282,11 +284,13 @@ void FunctionBody::over_several_objects(const ir::Loop& loop, bool is_from_start
         statements_.push_back(
             {moves ? or_move(loop, its_context, std::move(all)) : std::move(all)});
     } else if (loop.chosen) {
+        tree::Expressions arguments =
+            tree::list(tree::word("context"), expressions_.record(loop.chosen->few));
+        if (loop.chosen->kept) arguments.push_back(expressions_.record(*loop.chosen->kept));
+        arguments.push_back(expressions_.record(only_target(nest)));
+        arguments.push_back(std::move(lambda));
         statements_.push_back(
-            {tree::call("rddl::for_chosen_objects<" + count + ">",
-                        tree::list(tree::word("context"), expressions_.record(loop.chosen->few),
-                                   expressions_.record(loop.chosen->kept),
-                                   expressions_.record(only_target(nest)), std::move(lambda)))});
+            {tree::call("rddl::for_chosen_objects<" + count + ">", std::move(arguments))});
     } else if (found) {
         const std::string function =
             found->op == Operator::Or ? "rddl::exists_object<" : "rddl::for_all_objects<";
@@ -394,7 +398,7 @@ tree::Expression FunctionBody::near_object(const ir::Clearances& clearances,
                                  std::move(moves), std::move(lambda)));
 }
 
-// rddl::spread(next.at[c], rddl::union_of(moves_, rddl::bits(state.at[c]), action.move[c]));
+// rddl::spread(next.at[c], rddl::union_of<moves_>(rddl::bits(state.at[c]), action.move[c]));
 void FunctionBody::statement(const ir::Spread& spread) {
     const auto before = expressions_.mark();
     prepare({line_width}, spread.bits);

@@ -19,5 +19,8 @@ inline constexpr std::int64_t least_per_visit = 16;
 // `least_places` of loops that compute the chosen objects alone: one object alone takes about as
 // long as that many in registers. The runtime computes all objects if an action chooses more.
 inline constexpr std::int64_t least_per_chosen = 8;
+// `least_places` of draws that wait for an action's choice: those of the chosen objects are made
+// one by one, all others in registers.
+inline constexpr std::int64_t least_per_draw = 2;
 
 }  // namespace rddlc::passes

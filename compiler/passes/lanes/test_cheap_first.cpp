@@ -48,7 +48,7 @@ std::optional<ir::NodeId> drawn_where_chosen(ir::Builder& builder, std::vector<i
     const ir::Program& program = builder.program();
     const auto is_chosen = [&](ir::NodeId part) {
         const auto* load = std::get_if<ir::Load>(&program[part].form);
-        return load && acts_with_few_true(program[load->buffer], least_per_chosen);
+        return load && acts_with_few_true(program[load->buffer], least_per_draw);
     };
     const auto draws = std::stable_partition(parts.begin(), parts.end(), is_chosen);
     const auto is_random = [&](ir::NodeId part) {

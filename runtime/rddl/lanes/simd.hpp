@@ -396,6 +396,16 @@ template <int mode, class Function>
 
 // ------------------------------------------------------------------------------------- bits
 
+// The bits that leave a lane at its upper end enter it at the lower one.
+[[gnu::always_inline]] inline Ints rotate_left(Ints a, Ints count) {
+#ifdef RDDL_SIMD_AVX512
+    return (Ints)_mm512_maskz_rolv_epi64(0xFF, (__m512i)a, (__m512i)count);
+#else
+    const Words bits = (Words)a;
+    return (Ints)(bits << (Words)count | bits >> (Words)(-count & 63));
+#endif
+}
+
 // How many bits of each lane are 1: a table for 4 bits where registers can look up bytes (W. Mula,
 // N. Kurz, D. Lemire, Faster Population Counts Using AVX2 Instructions, 2018), else sums of
 // neighbours (H. Warren, Hacker's Delight, section 5-1).

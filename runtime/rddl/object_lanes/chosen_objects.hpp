@@ -1,4 +1,5 @@
-// Loops over objects of which an action chooses few; the bools of the others stay as they are.
+// Loops over objects of which an action chooses few; the bools of the others stay as they are, or
+// are false.
 //
 // In packs each environment takes its own objects (own_objects.hpp), unless one has chosen many.
 // One environment computes the bools of the chosen objects alone, unless many are chosen, and keeps
@@ -94,8 +95,9 @@ RDDL_INLINE void for_chosen_objects(Context<Pack<n, R>>& context, const Choices&
         const std::array<Lanes<std::int64_t, n>, word_count> chosen{
             action_bits<Index{64 * word}>(choices)...};
         if (!detail::are_few(chosen, most_chosen)) return for_each_object<count>(context, body);
-        (detail::for_own_objects<Index{64 * word}>(context, chosen[word], choices, kept, target,
-                                                   body),
+        (detail::for_own_objects<Index{64 * word}>(context, chosen[word], choices,
+                                                   detail::first_element(kept),
+                                                   bits<Index{64 * word}>(kept), target, body),
          ...);
     }
     (std::make_index_sequence<word_count>());
@@ -109,6 +111,29 @@ RDDL_INLINE void for_chosen_objects(Context<ScalarOf<R>>& context, const Choices
     auto words = words_of(kept);
     Context<ChosenOf<R>> of_chosen{context};
     detail::for_each_one(chosen, [&](Index i) RDDL_INLINE_LAMBDA {
+        body(of_chosen, ChosenObject{{i}, words.data()});
+    });
+    detail::store_words(words.data(), target);
+}
+
+// An object whose bool is false gets false. All objects together take no less than many of them.
+template <Index count, int n, class R, class Choices, class Table, class Body>
+RDDL_INLINE void for_chosen_objects(Context<Pack<n, R>>& context, const Choices& choices,
+                                    Table& target, Body&& body) {
+    [&]<std::size_t... word>(std::index_sequence<word...>) RDDL_INLINE_LAMBDA {
+        (detail::for_own_objects<Index{64 * word}>(context, action_bits<Index{64 * word}>(choices),
+                                                   choices, nullptr, Lanes<std::int64_t, n>{0},
+                                                   target, body),
+         ...);
+    }
+    (std::make_index_sequence<(count + 63) / 64>());
+}
+template <Index count, class R, class Choices, class Table, class Body>
+RDDL_INLINE void for_chosen_objects(Context<ScalarOf<R>>& context, const Choices& choices,
+                                    Table& target, Body&& body) {
+    std::array<std::uint64_t, (count + 63) / 64> words{};
+    Context<ChosenOf<R>> of_chosen{context};
+    detail::for_each_one(action_words_of(choices), [&](Index i) RDDL_INLINE_LAMBDA {
         body(of_chosen, ChosenObject{{i}, words.data()});
     });
     detail::store_words(words.data(), target);

@@ -35,7 +35,7 @@ struct OwnObjects {
     using Int = Lanes<std::int64_t, n>;
 
     const Mask<n>* choices;
-    const Mask<n>* kept;  // the bools of objects that are not chosen
+    const Mask<n>* kept;  // the bools of objects that are not chosen; null if all are false
     Mask<n> present;      // the lanes that have an object
     Int place;            // 0 in the others
     Int bit;              // of the object, in its word; 0 in the others
@@ -217,20 +217,20 @@ RDDL_INLINE bool are_few(const std::array<Lanes<std::int64_t, n>, count>& chosen
 }
 
 // Calls body(context, objects) until each lane has had the objects, of 64 from `first` on, whose
-// bits of `chosen` are 1.
+// bits of `chosen` are 1. The others have the bits of `word`, elements of `kept` if that is a table.
 template <Index first, int n, class R, class Choices, class Table, class Body>
 RDDL_INLINE void for_own_objects(Context<Pack<n, R>>& context, Lanes<std::int64_t, n> chosen,
-                                 const Choices& choices, const Table& kept, Table& target,
-                                 Body& body) {
+                                 const Choices& choices,
+                                 std::type_identity_t<const Mask<n>*> kept,
+                                 Lanes<std::int64_t, n> word, Table& target, Body& body) {
     using Int = Lanes<std::int64_t, n>;
     constexpr auto count = static_cast<int>(std::min<Index>(element_count<Table> - first, 64));
-    Int word = bits<first>(kept);
     for (Mask<n> some = chosen != Int{0}; any(some); some = chosen != Int{0}) {
         const Int below = wrap_sub(chosen, Int{1});
         const Int bit = chosen ^ (chosen & below);
         const Int place = count_ones(chosen ^ below) + Int{first - 1};
         Context<OwnObjectsOf<n, R>> several{context, context.active && some};
-        body(several, OwnObjects<n>{first_element(choices), first_element(kept), some,
+        body(several, OwnObjects<n>{first_element(choices), kept, some,
                                     select(some, place, Int{0}), bit, word});
         chosen = chosen ^ bit;
     }

@@ -233,28 +233,4 @@ RDDL_INLINE Lanes<std::int64_t, n> count_ones(const Lanes<std::int64_t, n>& a) {
         [](simd::Ints bits) RDDL_INLINE_LAMBDA { return simd::count_ones(bits); }, a);
 }
 
-// The bits that one mask at least has, of the masks in a row of a table that are chosen by bits:
-// bit i chooses element i. The row may differ between lanes.
-template <class Masks, class... Row>
-RDDL_INLINE std::int64_t union_of(const Masks& masks, std::int64_t bits, Row... row) {
-    std::int64_t all = 0;
-    for (auto left = static_cast<std::uint64_t>(bits); left != 0; left &= left - 1)
-        all |= at(masks, row..., Index{__builtin_ctzll(left)});
-    return all;
-}
-template <class Masks, int n, class... Row>
-RDDL_INLINE Lanes<std::int64_t, n> union_of(const Masks& masks, Lanes<std::int64_t, n> bits,
-                                            const Row&... row) {
-    using Int = Lanes<std::int64_t, n>;
-    Int all{0};
-    for (Mask<n> some = bits != 0; any(some); some = bits != 0) {
-        const Int others = bits & wrap_sub(bits, Int{1});
-        const Int place = count_ones(wrap_sub(bits ^ others, Int{1}));
-        const Int mask = at(masks, row..., select(some, place, Int{0}));
-        all = all | select(some, mask, Int{0});
-        bits = others;
-    }
-    return all;
-}
-
 }  // namespace rddl

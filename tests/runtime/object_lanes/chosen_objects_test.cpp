@@ -45,6 +45,13 @@ void expect_the_chosen(std::size_t every, StreamKey key) {
     EXPECT_TRUE(result.behind);
     EXPECT_EQ(same_context.fault.kind, context.fault.kind);
     EXPECT_EQ(same_context.fault.place, context.fault.place);
+
+    kept.fill(false);
+    Context<Scalar> third_context{key, 1, {}};
+    for_each_object<count>(context, body(expected));
+    for_chosen_objects<count>(third_context, choices, result.bools, body(result.bools));
+    EXPECT_EQ(result.bools, expected) << n << " " << every;
+    EXPECT_TRUE(result.behind);
 }
 
 TEST(ChosenObjects, AreComputedAlone) {
@@ -142,6 +149,24 @@ void expect_the_own(int most) {
         EXPECT_EQ(same_context.fault_of(lane).place, context.fault_of(lane).place);
         EXPECT_EQ(same_context.fault_of(lane).value, context.fault_of(lane).value);
     });
+
+    for (Mask<n>& each : kept) each = false;
+    const auto draw = [&](auto& target) {
+        return [&](auto& several, auto x) {
+            elements(target, x) = branch(
+                several, at(choices, x),
+                [&] {
+                    return sample::valid_bernoulli(several, {3, x}, at(chance<R>, x));
+                },
+                [&] { return false; });
+        };
+    };
+    for_each_object<courses>(context, draw(expected));
+    for_chosen_objects<courses>(context, choices, result.bools, draw(result.bools));
+    for (std::size_t x = 0; x < courses; ++x) {
+        EXPECT_EQ(result.bools[x].bits, expected[x].bits) << x;
+        EXPECT_TRUE(all(result.behind[x]));
+    }
 }
 
 TEST(ChosenObjects, AreEachEnvironmentsOwnInPacks) {

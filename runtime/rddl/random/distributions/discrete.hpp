@@ -92,6 +92,46 @@ template <class Number>
 inline constexpr Number least_total =
     std::numeric_limits<Number>::min() / std::numeric_limits<Number>::epsilon();
 
+// How many sums of weights are at most a limit that lies between `low` and `high`, and whether that
+// is certain: no sum lies between them, nor is anything nan. Sums of weights that are not negative
+// never fall, so packs ask whether the first one above `low` is above `high` as well.
+template <class L>
+class PassedSums {
+    using Int = typename L::Int;
+    using Real = typename L::Real;
+
+  public:
+    RDDL_INLINE PassedSums(const Real& low, const Real& high) : low_(low), high_(high) {}
+    RDDL_INLINE void add(const Real& sum) {
+        next_ = select(is_passed_, sum, next_);
+        is_passed_ = sum <= low_;
+        count_ = wrap_add(count_, to_int(is_passed_));
+    }
+    RDDL_INLINE Int count() const { return count_; }
+    RDDL_INLINE auto is_certain() const { return high_ < next_; }
+
+  private:
+    Real low_, high_, next_{0};
+    Int count_{0};
+    typename L::Bool is_passed_{true};
+};
+// For one environment, where compilers make jumps of selects, both counts are compared.
+template <class R>
+class PassedSums<ScalarOf<R>> {
+  public:
+    RDDL_INLINE PassedSums(R low, R high) : low_(low), high_(high) {}
+    RDDL_INLINE void add(R sum) {
+        count_ += sum <= low_;
+        most_ += sum <= high_;
+    }
+    RDDL_INLINE std::int64_t count() const { return count_; }
+    RDDL_INLINE bool is_certain() const { return count_ == most_ && low_ <= high_; }
+
+  private:
+    R low_, high_;
+    std::int64_t count_ = 0, most_ = 0;
+};
+
 }  // namespace detail
 
 // discrete_over() with the probabilities weight(i) / total, where no weight is negative. Sums of
@@ -107,13 +147,13 @@ RDDL_INLINE typename L::Int discrete_of_shares_over(Context<L>& context, SomePla
     const Real limit = uniform_at(context, place) * total;
     const Real low = limit - rounding, high = limit + rounding;
     Real sum{0};
-    Int chosen{0}, at_most_chosen{0};
+    detail::PassedSums<L> passed(low, high);
     for (Index i = 0; i < n; ++i) {
         sum = sum + weight(i);
-        chosen = wrap_add(chosen, to_int(sum <= low));
-        at_most_chosen = wrap_add(at_most_chosen, to_int(sum <= high));
+        passed.add(sum);
     }
-    const auto is_certain = chosen == at_most_chosen && chosen < Int{n} &&
+    const Int chosen = passed.count();
+    const auto is_certain = passed.is_certain() && chosen < Int{n} &&
                             absolute(sum - total) < total * Real{1e-6} &&
                             total > Real{detail::least_total<Number>};
     if (detail::holds_where_used(context, is_certain)) [[likely]]
@@ -148,14 +188,11 @@ RDDL_INLINE typename L::Int discrete_of_row(Context<L>& context, SomePlace place
     const Real rounding = total * Real{detail::rounding_of_shares<Number>(n)};
     const Real limit = uniform_at(context, place) * total;
     const Real low = limit - rounding, high = limit + rounding;
-    Int chosen{0}, above{0};
-    for (const Real& sum : sums) {
-        chosen = wrap_add(chosen, to_int(sum <= low));
-        above = wrap_add(above, to_int(high < sum));
-    }
-    // Each sum is on one side; with an infinite total or a nan, on none.
-    const auto is_certain =
-        wrap_add(chosen, above) == Int{n} && total > Real{detail::least_total<Number>};
+    detail::PassedSums<L> passed(low, high);
+    for (const Real& sum : sums) passed.add(sum);
+    const Int chosen = passed.count();
+    // With an infinite total or a nan, `low` is nan.
+    const auto is_certain = passed.is_certain() && total > Real{detail::least_total<Number>};
     if (detail::holds_where_used(context, is_certain)) [[likely]]
         return select(is_certain, chosen, Int{0});
     return detail::discrete_of_quotients(context, place, weights);
