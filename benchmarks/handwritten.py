@@ -68,6 +68,7 @@ REFERENCES = {
     "Elevators_MDP_ippc2014": Reference(QUEUES, "10", "elevators", "Elevators"),
     "Knapsack_or": Reference(QUEUES, "0", "knapsack", "Knapsack"),
     "PushYourLuck_ippc2018": Reference(QUEUES, "11", "push_your_luck", "PushYourLuck"),
+    "ChromaticDice_ippc2018": Reference(QUEUES, "10", "chromatic_dice", "ChromaticDice"),
     "BinPacking_or": Reference(QUEUES, "0", "bin_packing", "BinPacking"),
     "MountainCar_ippc2023": Reference(CONTROL, "1", "mountain_car", "MountainCar", True),
     "CartPole_Continuous_gym": Reference(CONTROL, "0", "cart_pole", "CartPole", True),

@@ -590,6 +590,22 @@ def red_finned_blue_eye() -> list[str]:
     ]
 
 
+def chromatic_dice() -> list[str]:
+    values = values_of("ChromaticDice_ippc2018", "10")
+    for part, bonus in (("VALUE", 45), ("COLOR", 40)):
+        assert np.array_equal(values[f"BONUS_PROB_{part}_PART"], [0, 0, 0, 1, 1, 1])
+        assert np.all(values[f"BONUS_{part}_PART"] == bonus)
+    scores = {"FIVE_OF_A_KIND": 50, "LARGE_STRAIGHT": 40, "SMALL_STRAIGHT": 30, "FULL_HOUSE": 25, "COLOR_FULL_HOUSE": 20}
+    assert all(values[f"SCORE_{name}"] == score for name, score in scores.items())
+    assert all(np.all(values[name] == start) for name, start in (("die-value", 0), ("die-color", 2), ("current-phase", 0)))
+    return [
+        array("value_chances", values["VALUE_PROB"]),
+        array("color_chances", values["COLOR_PROB"]),
+        bit_set("taken", values["taken"]),
+        number("level", values["bonus-level-value-part"], "std::uint64_t"),
+    ]
+
+
 TABLES = (
     mountain_car,
     sysadmin,
@@ -626,6 +642,7 @@ TABLES = (
     traffic_blx,
     red_finned_blue_eye,
     traffic_ctm,
+    chromatic_dice,
 )
 
 
