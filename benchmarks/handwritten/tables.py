@@ -606,6 +606,17 @@ def chromatic_dice() -> list[str]:
     ]
 
 
+def quadcopter() -> list[str]:
+    values = values_of("Quadcopter_physics", "1")
+    constants = {"FMAX": 1e6, "MC": 0.3, "MR": 0.1, "R": 0.15, "L": 0.3, "DF": 2, "K": 0.01, "B": 0.001, "KD": 4, "DT": 0.01, "G": 9.8}
+    weights = {"DISTANCE": 1, "COLLISION": 10000, "TILT": 0.0001, "WOBBLE": 0.0001}
+    assert all(values[name] == value for name, value in (constants | weights).items())
+    assert len(set(values["ID"])) == len(values["ID"])
+    moving = ("xdot", "ydot", "zdot", "phi", "theta", "psi", "phidot", "thetadot", "psidot")
+    assert not any(np.any(values[name]) for name in moving)
+    return [array("start", [values[axis] for axis in "xyz"]), array("target", [values[f"T{axis}"] for axis in "XYZ"])]
+
+
 TABLES = (
     mountain_car,
     sysadmin,
@@ -643,6 +654,7 @@ TABLES = (
     red_finned_blue_eye,
     traffic_ctm,
     chromatic_dice,
+    quadcopter,
 )
 
 
