@@ -94,6 +94,7 @@ REFERENCES = {
     "CooperativeRecon_ippc2018": Reference(OBJECTS, "11", "cooperative_recon", "CooperativeRecon"),
     "Logistics_rddlsim": Reference(OBJECTS, "0", "logistics", "Logistics"),
     "RedFinnedBlueEye_ippc2018": Reference(OBJECTS, "20", "red_finned_blue_eye", "RedFinnedBlueEye"),
+    "Tetris_arcade": Reference(GRIDS, "0", "tetris", "Tetris"),
     "Zombies_arcade": Reference(OBJECTS, "2", "zombies", "Zombies"),
 }
 LEAST_RATIO = 0.9

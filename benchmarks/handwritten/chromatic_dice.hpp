@@ -21,8 +21,10 @@ struct Faces {
             double sum = 0;
             for (const double chance : chances) {
                 const std::uint64_t limit = threshold(sum += chance);
-                if (limit <= low) ++faces.first[eighth];
-                else if (limit < high) faces.limit[eighth] = limit;
+                if (limit <= low)
+                    ++faces.first[eighth];
+                else if (limit < high)
+                    faces.limit[eighth] = limit;
             }
         }
         return faces;
@@ -169,9 +171,9 @@ struct ChromaticDice : RunsToTheHorizon {
     static constexpr std::uint64_t one_die = std::uint64_t{1} << sum_bits;
     static constexpr std::uint64_t of_values[lanes] = {one_die | 1, one_die | 2, one_die | 3,
                                                        one_die | 4, one_die | 5, one_die | 6};
-    static constexpr std::uint64_t in_values[lanes] = {
-        of_values[0],       of_values[1] << 8,  of_values[2] << 16,
-        of_values[3] << 24, of_values[4] << 32, of_values[5] << 40};
+    static constexpr std::uint64_t in_values[lanes] = {of_values[0],       of_values[1] << 8,
+                                                       of_values[2] << 16, of_values[3] << 24,
+                                                       of_values[4] << 32, of_values[5] << 40};
     static constexpr std::uint64_t places[lanes] = {0, 8, 24, 16, 32};
 
     static std::uint64_t shifted(std::uint64_t word, std::uint64_t by) { return word << by; }
@@ -236,8 +238,8 @@ struct ChromaticDice : RunsToTheHorizon {
         const auto fixed = [&](std::uint64_t its, std::uint64_t score, const Word& others) {
             return if_zero(category & bit(its), others, Word{score});
         };
-        constexpr std::uint64_t all = bit(two_pairs) | bit(three_of_a_kind) | bit(four_of_a_kind) |
-                                      bit(chance) | bit(flush);
+        constexpr std::uint64_t all =
+            bit(two_pairs) | bit(three_of_a_kind) | bit(four_of_a_kind) | bit(chance) | bit(flush);
         constexpr std::uint64_t of_color = bit(three_of_a_color) | bit(four_of_a_color);
         Word score = if_zero(category & of_color, Word{std::uint64_t{20}}, lower.of_color);
         score = if_zero(category & all, score, lower.of_all);
@@ -250,9 +252,9 @@ struct ChromaticDice : RunsToTheHorizon {
     template <class Word>
     static Word next_level(const Word& level, const Word& count) {
         const Word raised = level + count, zero{std::uint64_t{0}}, most{values - 1};
-        return select(is_below(raised, Word{std::uint64_t{4}}), zero,
-                      select(is_below(raised, Word{values + 2}), raised - Word{std::uint64_t{3}},
-                             most));
+        return select(
+            is_below(raised, Word{std::uint64_t{4}}), zero,
+            select(is_below(raised, Word{values + 2}), raised - Word{std::uint64_t{3}}, most));
     }
 
     // Of environments that assign.
@@ -268,7 +270,7 @@ struct ChromaticDice : RunsToTheHorizon {
             sum_of_all = sum_of_all + s.value(die);
         }
         sum_of_all = sum_of_all + Word{dice};
-        // Of the upper or the middle section.
+        // The categories of the upper and the middle section.
         const Word upper = category & first_bits(values),
                    middle = category >> values & first_bits(colors), either = upper | middle;
         const Word place = bit_count(either - Word{std::uint64_t{1}}) << 3;
@@ -276,8 +278,7 @@ struct ChromaticDice : RunsToTheHorizon {
         const Word count = byte >> sum_bits;
         s.value_level = if_zero(upper, s.value_level, next_level(s.value_level, count));
         s.color_level = if_zero(middle, s.color_level, next_level(s.color_level, count));
-        return if_zero(either,
-                       lower_score(lower(by_value, by_color, sum_of_all), category),
+        return if_zero(either, lower_score(lower(by_value, by_color, sum_of_all), category),
                        byte & sum);
     }
 
@@ -293,7 +294,8 @@ struct ChromaticDice : RunsToTheHorizon {
         Word score = is_phase(finish, if_zero(s.receives_value, zero, Word{std::uint64_t{45}}) +
                                           if_zero(s.receives_color, zero, Word{std::uint64_t{40}}));
         const auto high = [&](const Word& level) {
-            return is_phase(receive_boni, select(is_below(level, Word{chromatic_dice::level}), zero, one));
+            return is_phase(receive_boni,
+                            select(is_below(level, Word{chromatic_dice::level}), zero, one));
         };
         s.receives_value = high(s.value_level);
         s.receives_color = high(s.color_level);

@@ -2,8 +2,8 @@
 // computed in the order of the text; places, which turn no drone, as is best.
 #pragma once
 
-#include "registers.hpp"
 #include "reference.hpp"
+#include "registers.hpp"
 #include "tables.hpp"
 
 namespace handwritten {

@@ -617,6 +617,20 @@ def quadcopter() -> list[str]:
     return [array("start", [values[axis] for axis in "xyz"]), array("target", [values[f"T{axis}"] for axis in "XYZ"])]
 
 
+def tetris() -> list[str]:
+    values = values_of("Tetris_arcade", "0")
+    for name in ("WIDTH", "HEIGHT", "OFFSET-X", "OFFSET-Y"):
+        assert np.all(np.diff(values[name]) == 1), "in order"
+    assert values["WIDTH"].size == 4 and values["HEIGHT"].size == 6
+    assert np.all(values["PROB-SHAPE"] == 1) and not np.any(values["filled"])
+    assert [values[f"CLEARED-{count}"] for count in (1, 2, 3, 4)] == [40, 100, 300, 1200]
+    placed = [
+        sum(1 << (4 * int(y) + column + int(x)) for x, y in np.argwhere(cells) if column + x < 4)
+        for rotations in values["SHAPES"] for cells in rotations for column in range(4)
+    ]
+    return [words("placed", placed), number("shape", the_only(values["current-shape-type"]), "std::uint64_t")]
+
+
 TABLES = (
     mountain_car,
     sysadmin,
@@ -655,6 +669,7 @@ TABLES = (
     traffic_ctm,
     chromatic_dice,
     quadcopter,
+    tetris,
 )
 
 
