@@ -34,9 +34,9 @@ constexpr std::int64_t fewest_objects = 2;
 // jump do not pay.
 constexpr std::int64_t fewest_reals_that_jump = 4;
 constexpr std::int64_t objects_of_register = 8;
-// And so do reals that another loop of this step takes into a register or stores from one:
-// registers wait for elements that were just stored one by one.
-constexpr std::int64_t fewest_reals_in_turn = 4;
+// And so do reals that another loop reads into a register, which waits for elements that were just
+// stored one by one.
+constexpr std::int64_t fewest_reals_that_wait = 4;
 
 class Marking {
   public:
@@ -54,7 +54,7 @@ class Marking {
                 stored_one_by_one_.insert(target.name);
         }
         while (std::ranges::any_of(program.step, [&](const ir::Definition& definition) {
-            return passes_on_registers(definition);
+            return reads_more_into_registers(definition);
         })) {
         }
     }
@@ -143,43 +143,31 @@ class Marking {
         });
     }
 
-    // Remembers the tables of reals of few objects that a definition reads from registers or stores
-    // from them; whether there are new ones.
-    bool passes_on_registers(const ir::Definition& definition) {
+    // Remembers the tables of reals that a definition of few objects reads into registers; whether
+    // there are new ones.
+    bool reads_more_into_registers(const ir::Definition& definition) {
         const auto* loop = ir::only_statement<ir::Loop>(definition.body);
         if (!loop || program_[definition.target].scalar != ir::Scalar::Real) return false;
         const ir::Nest nest = ir::nest_of(*loop);
         const std::int64_t objects = ir::combinations(program_, nest.variables);
-        if (objects < fewest_reals_in_turn || objects >= objects_of_register ||
+        if (objects < fewest_reals_that_wait || objects >= objects_of_register ||
             !is_worth_it(*loop) || !is_possible(*loop))
             return false;
-        const std::size_t before = in_registers_.size();
-        for (const ir::Statement& statement : *nest.body)
-            if (const auto* store = std::get_if<ir::Store>(&statement.form))
-                in_registers_.insert(program_[store->target].name);
+        const std::size_t before = read_into_registers_.size();
         for (const ir::NodeId root : ir::roots_of(*nest.body)) {
             ir::any_node_of(program_, root, [&](ir::NodeId each) {
-                if (const auto table = table_of_reals(each)) in_registers_.insert(*table);
+                const auto buffer = ir::buffer_read_by(program_[each]);
+                if (buffer && is_table_of_step(program_[*buffer]))
+                    read_into_registers_.insert(program_[*buffer].name);
                 return false;
             });
         }
-        return in_registers_.size() > before;
+        return read_into_registers_.size() > before;
     }
-    // The name of a table of the state, or of this step, that the node reads.
-    std::optional<std::string> table_of_reals(ir::NodeId id) const {
-        const auto buffer = ir::buffer_read_by(program_[id]);
-        if (!buffer || program_[*buffer].scalar != ir::Scalar::Real ||
-            program_[*buffer].shape.empty() || program_[*buffer].storage == ir::Storage::Action ||
-            program_[*buffer].storage == ir::Storage::Constant)
-            return std::nullopt;
-        return program_[*buffer].name;
-    }
-    bool is_beside_registers(const ir::Store& store, ir::NodeId value) const {
-        return in_registers_.contains(program_[store.target].name) ||
-               ir::any_node_of(program_, value, [&](ir::NodeId each) {
-                   const auto table = table_of_reals(each);
-                   return table && in_registers_.contains(*table);
-               });
+    // Stored by this step or by the one before.
+    static bool is_table_of_step(const ir::Buffer& buffer) {
+        return buffer.scalar == ir::Scalar::Real && !buffer.shape.empty() &&
+               (buffer.storage == ir::Storage::State || buffer.storage == ir::Storage::Scratch);
     }
 
     // A draw takes a row of them as a register, whatever they cost.
@@ -197,8 +185,8 @@ class Marking {
         return cost_of(value) >= least ||
                (scalar == ir::Scalar::Real && objects >= fewest_reals_that_jump && jumps(value) &&
                 !reads_new_values(value)) ||
-               (scalar == ir::Scalar::Real && objects >= fewest_reals_in_turn &&
-                is_beside_registers(store, value));
+               (scalar == ir::Scalar::Real && objects >= fewest_reals_that_wait &&
+                read_into_registers_.contains(program_[store.target].name));
     }
     // The value that a let of the block gives this name; the node itself if it is no name.
     ir::NodeId named_value(const ir::Block& block, ir::NodeId id) const {
@@ -253,8 +241,8 @@ class Marking {
 
     const ir::Program& program_;
     std::vector<ir::Properties> properties_;
-    std::set<std::string> stored_one_by_one_;  // tables of the next state
-    std::set<std::string> in_registers_;  // the same of few reals, of the state and of the step
+    std::set<std::string> stored_one_by_one_;    // tables of the next state
+    std::set<std::string> read_into_registers_;  // tables of few reals
     std::set<ir::BufferId> rows_of_weights_;
 };
 
