@@ -257,7 +257,7 @@ struct ChromaticDice : RunsToTheHorizon {
             select(is_below(raised, Word{values + 2}), raised - Word{std::uint64_t{3}}, most));
     }
 
-    // Of environments that assign.
+    // For environments that assign.
     template <class L>
     static typename L::Word assign_to(State<L>& s, const typename L::Word& category) {
         using Word = typename L::Word;

@@ -43,7 +43,7 @@ class Separation {
     }
 
   private:
-    // What a case wants of each object of the nest, and of none of them.
+    // The parts of a case by the object of the nest that each of them asks for, if it is one.
     struct Wanted {
         std::vector<Parts> of_objects;
         Parts of_none;
