@@ -356,7 +356,7 @@ constexpr Pass in_order[] = {
     {"skip_unchosen_sums",
      Phase::Aggregations,
      skip_unchosen_sums,
-     "expensive sums of the reward are skipped where the action chooses nothing",
+     "expensive sums and cases are skipped where the action chooses nothing",
      {"skip_zero_terms", "count_bits"},
      "the sums that are still expensive are known",
      adds_tests},

@@ -23,8 +23,8 @@ namespace {
 constexpr double worth_a_test = 10;
 // An action of many tables chooses from one of them now and then.
 constexpr std::int64_t least_tables_per_choice = 4;
-// The same of cases, which may be read from one table that chooses often, and of what is left of
-// them.
+// The same of conditions, which one table decides, though it may choose often; and of what is left
+// where it does not.
 constexpr double worth_a_test_of_cases = 100;
 constexpr double cheap = 2;
 constexpr std::int64_t most_bools_of_cases = 64;
@@ -79,8 +79,9 @@ class Skipping {
         if (!select) return std::nullopt;
         if (select->evaluated == ir::Evaluated::Jump) return id;
         const ir::Properties& properties = builder_.properties(id);
-        const double cost = properties.cost;  // new nodes move the properties
-        if (properties.may_fault || properties.random || cost < worth_a_test_of_cases) return id;
+        if (properties.may_fault || properties.random) return id;
+        const double cost = cost_of_conditions(id);
+        if (cost < worth_a_test_of_cases) return id;
         for (const ir::BufferId table : tables_of_action(id)) {
             if (program_[table].count() > most_bools_of_cases) continue;
             const ir::NodeId rest = without({table}, id);
@@ -90,6 +91,13 @@ class Skipping {
             return builder_.select(is_chosen({table}), id, rest, ir::Evaluated::Jump);
         }
         return id;
+    }
+
+    // Operations where none of the cases is met, apart from those of what is left then.
+    double cost_of_conditions(ir::NodeId id) const {
+        const auto* select = std::get_if<ir::Select>(&program_[id].form);
+        if (!select) return 0;
+        return builder_.properties(select->condition).cost + cost_of_conditions(select->else_value);
     }
 
     // The share of all actions, in which one of the tables is chosen, if each element of the action
