@@ -160,20 +160,6 @@ struct RedFinnedBlueEye : RunsToTheHorizon {
         }
         return bits;
     }
-    template <int n>
-    static rddl::Lanes<std::uint64_t, n> entry_of_eight(
-        const std::uint64_t (&table)[8], const rddl::Lanes<std::uint64_t, n>& index) {
-#ifdef RDDL_SIMD_AVX512
-        rddl::Lanes<std::uint64_t, n> values;
-        for (int p = 0; p < values.part_count; ++p)
-            values.part[p] = (rddl::simd::Words)_mm512_permutexvar_epi64((__m512i)index.part[p],
-                                                                         _mm512_loadu_si512(table));
-        return values;
-#else
-        return gather_integers(table, rddl::ints_of(index));
-#endif
-    }
-
     template <class L, class Draws>
     static typename L::Real step(State<L>& s, const Actions<L>& chosen, const Draws& draws) {
         using Word = typename L::Word;

@@ -49,6 +49,24 @@ rddl::Lanes<T, n> gather_integers(const T* table, const rddl::Lanes<std::int64_t
     return values;
 }
 
+// An entry of a table of eight, which one register holds.
+inline std::uint64_t entry_of_eight(const std::uint64_t (&table)[8], std::uint64_t index) {
+    return table[index];
+}
+template <int n>
+rddl::Lanes<std::uint64_t, n> entry_of_eight(const std::uint64_t (&table)[8],
+                                             const rddl::Lanes<std::uint64_t, n>& index) {
+#ifdef RDDL_SIMD_AVX512
+    rddl::Lanes<std::uint64_t, n> values;
+    for (int p = 0; p < values.part_count; ++p)
+        values.part[p] = (rddl::simd::Words)_mm512_permutexvar_epi64((__m512i)index.part[p],
+                                                                     _mm512_loadu_si512(table));
+    return values;
+#else
+    return gather_integers(table, rddl::ints_of(index));
+#endif
+}
+
 // Where the row of each lane begins, in an array of rows of so many elements.
 template <class L>
 typename L::Int row_starts(std::size_t elements) {

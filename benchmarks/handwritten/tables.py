@@ -590,6 +590,47 @@ def red_finned_blue_eye() -> list[str]:
     ]
 
 
+def chromatic_dice() -> list[str]:
+    values = values_of("ChromaticDice_ippc2018", "10")
+    for part, bonus in (("VALUE", 45), ("COLOR", 40)):
+        assert np.array_equal(values[f"BONUS_PROB_{part}_PART"], [0, 0, 0, 1, 1, 1])
+        assert np.all(values[f"BONUS_{part}_PART"] == bonus)
+    scores = {"FIVE_OF_A_KIND": 50, "LARGE_STRAIGHT": 40, "SMALL_STRAIGHT": 30, "FULL_HOUSE": 25, "COLOR_FULL_HOUSE": 20}
+    assert all(values[f"SCORE_{name}"] == score for name, score in scores.items())
+    assert all(np.all(values[name] == start) for name, start in (("die-value", 0), ("die-color", 2), ("current-phase", 0)))
+    return [
+        array("value_chances", values["VALUE_PROB"]),
+        array("color_chances", values["COLOR_PROB"]),
+        bit_set("taken", values["taken"]),
+        number("level", values["bonus-level-value-part"], "std::uint64_t"),
+    ]
+
+
+def quadcopter() -> list[str]:
+    values = values_of("Quadcopter_physics", "1")
+    constants = {"FMAX": 1e6, "MC": 0.3, "MR": 0.1, "R": 0.15, "L": 0.3, "DF": 2, "K": 0.01, "B": 0.001, "KD": 4, "DT": 0.01, "G": 9.8}
+    weights = {"DISTANCE": 1, "COLLISION": 10000, "TILT": 0.0001, "WOBBLE": 0.0001}
+    assert all(values[name] == value for name, value in (constants | weights).items())
+    assert len(set(values["ID"])) == len(values["ID"])
+    moving = ("xdot", "ydot", "zdot", "phi", "theta", "psi", "phidot", "thetadot", "psidot")
+    assert not any(np.any(values[name]) for name in moving)
+    return [array("start", [values[axis] for axis in "xyz"]), array("target", [values[f"T{axis}"] for axis in "XYZ"])]
+
+
+def tetris() -> list[str]:
+    values = values_of("Tetris_arcade", "0")
+    for name in ("WIDTH", "HEIGHT", "OFFSET-X", "OFFSET-Y"):
+        assert np.all(np.diff(values[name]) == 1), "in order"
+    assert values["WIDTH"].size == 4 and values["HEIGHT"].size == 6
+    assert np.all(values["PROB-SHAPE"] == 1) and not np.any(values["filled"])
+    assert [values[f"CLEARED-{count}"] for count in (1, 2, 3, 4)] == [40, 100, 300, 1200]
+    placed = [
+        sum(1 << (4 * int(y) + column + int(x)) for x, y in np.argwhere(cells) if column + x < 4)
+        for rotations in values["SHAPES"] for cells in rotations for column in range(4)
+    ]
+    return [words("placed", placed), number("shape", the_only(values["current-shape-type"]), "std::uint64_t")]
+
+
 TABLES = (
     mountain_car,
     sysadmin,
@@ -626,6 +667,9 @@ TABLES = (
     traffic_blx,
     red_finned_blue_eye,
     traffic_ctm,
+    chromatic_dice,
+    quadcopter,
+    tetris,
 )
 
 

@@ -18,6 +18,7 @@
 #include "passes/aggregations/merge_draws.hpp"
 #include "passes/aggregations/order_objects.hpp"
 #include "passes/aggregations/search_intervals.hpp"
+#include "passes/aggregations/separate_objects.hpp"
 #include "passes/aggregations/set_bits.hpp"
 #include "passes/aggregations/skip_added_zeros.hpp"
 #include "passes/aggregations/skip_unchosen_sums.hpp"
@@ -217,11 +218,17 @@ constexpr Pass in_order[] = {
      "where few bools are true, aggregations visit those",
      {"index_directly"},
      "an equality is better than a table; and the passes below take aggregations apart"},
+    {"separate_objects",
+     Phase::Aggregations,
+     separate_objects,
+     "an exists or forall asks alone for each of the objects that their values tell apart",
+     {"index_directly"},
+     "an equality is better; and the passes below order and tabulate what is left"},
     {"order_objects",
      Phase::Aggregations,
      order_objects,
      "an exists or forall visits objects that may change places in one order",
-     {"index_directly", "visit_true"},
+     {"visit_true", "separate_objects"},
      "an equality is better than an order; and the passes below take aggregations apart"},
     {"factor_aggregations",
      Phase::Aggregations,
@@ -351,7 +358,7 @@ constexpr Pass in_order[] = {
     {"skip_unchosen_sums",
      Phase::Aggregations,
      skip_unchosen_sums,
-     "expensive sums of the reward are skipped where the action chooses nothing",
+     "expensive sums and cases are skipped where the action chooses nothing",
      {"skip_zero_terms", "count_bits"},
      "the sums that are still expensive are known",
      adds_tests},

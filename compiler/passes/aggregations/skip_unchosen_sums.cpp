@@ -23,6 +23,11 @@ namespace {
 constexpr double worth_a_test = 10;
 // An action of many tables chooses from one of them now and then.
 constexpr std::int64_t least_tables_per_choice = 4;
+// The same of conditions, which one table decides, though it may choose often; and of what is left
+// where it does not.
+constexpr double worth_a_test_of_cases = 100;
+constexpr double cheap = 2;
+constexpr std::int64_t most_bools_of_cases = 64;
 // Bools of tables whose words are tested.
 constexpr std::int64_t most_bools = 512;
 
@@ -38,6 +43,12 @@ class Skipping {
     ir::Program run() && {
         program_.reward.value = ir::replace_reductions_in(
             builder_, program_.reward.value, [&](ir::NodeId id) { return tested(id); });
+        std::map<ir::NodeId, ir::NodeId> known;
+        program_.reward.value = ir::replace_in(builder_, program_.reward.value, known,
+                                               [&](ir::NodeId id) { return tested_cases(id); });
+        for (ir::Definition& definition : program_.step)
+            if (auto* store = ir::only_statement<ir::Store>(definition.body))
+                store->value = tested_cases(store->value).value_or(store->value);
         return ir::collect_garbage(std::move(program_));
     }
 
@@ -57,6 +68,36 @@ class Skipping {
         if (!are_often_unchosen(needed) || gain(needed, cost) < worth_a_test) return std::nullopt;
         ++report_["sums that are skipped where nothing is chosen"];
         return builder_.select(is_chosen(needed), id, builder_.constant(0.0), ir::Evaluated::Jump);
+    }
+
+    // Cases that one table of the action decides, and of which little is left where it chooses
+    // nothing. They stand where every step computes them.
+    std::optional<ir::NodeId> tested_cases(ir::NodeId id) {
+        const ir::Node& node = program_[id];
+        if (std::holds_alternative<ir::Reduce>(node.form)) return id;
+        const auto* select = std::get_if<ir::Select>(&node.form);
+        if (!select) return std::nullopt;
+        if (select->evaluated == ir::Evaluated::Jump) return id;
+        const ir::Properties& properties = builder_.properties(id);
+        if (properties.may_fault || properties.random) return id;
+        const double cost = cost_of_conditions(id);
+        if (cost < worth_a_test_of_cases) return id;
+        for (const ir::BufferId table : tables_of_action(id)) {
+            if (program_[table].count() > most_bools_of_cases) continue;
+            const ir::NodeId rest = without({table}, id);
+            if (builder_.properties(rest).cost > cheap || gain({table}, cost) < worth_a_test)
+                continue;
+            ++report_["cases that are skipped where nothing is chosen"];
+            return builder_.select(is_chosen({table}), id, rest, ir::Evaluated::Jump);
+        }
+        return id;
+    }
+
+    // Operations where none of the cases is met, apart from those of what is left then.
+    double cost_of_conditions(ir::NodeId id) const {
+        const auto* select = std::get_if<ir::Select>(&program_[id].form);
+        if (!select) return 0;
+        return builder_.properties(select->condition).cost + cost_of_conditions(select->else_value);
     }
 
     // The share of all actions, in which one of the tables is chosen, if each element of the action
@@ -99,17 +140,21 @@ class Skipping {
     }
     // Whether the sum is 0.0 where all bools of the tables are false.
     bool is_zero_without(const Tables& tables, ir::NodeId id) {
-        std::map<ir::NodeId, ir::NodeId> known;
-        const ir::NodeId rest =
-            ir::replace_in(builder_, id, known, [&](ir::NodeId each) -> std::optional<ir::NodeId> {
-                const ir::Node& node = program_[each];
-                const auto table = ir::buffer_read_by(node);
-                if (!table || !tables.contains(*table)) return std::nullopt;
-                if (node.type == ir::Scalar::Bool) return builder_.constant(false);
-                return builder_.constant(std::int64_t{0});
-            });
-        const auto where_not = pattern_.of(term_of(rest), 0.0);
+        const auto where_not = pattern_.of(term_of(without(tables, id)), 0.0);
         return where_not && where_not->tuples.empty();
+    }
+    // The value with false for all bools of the tables.
+    ir::NodeId without(const Tables& tables, ir::NodeId id) {
+        std::map<ir::NodeId, ir::NodeId> known;
+        return ir::replace_in(builder_, id, known,
+                              [&](ir::NodeId each) -> std::optional<ir::NodeId> {
+                                  const ir::Node& node = program_[each];
+                                  const auto table = ir::buffer_read_by(node);
+                                  if (!table || !tables.contains(*table)) return std::nullopt;
+                                  if (node.type == ir::Scalar::Bool)
+                                      return builder_.constant(false);
+                                  return builder_.constant(std::int64_t{0});
+                              });
     }
     // Nested sums have the term of the innermost one.
     ir::NodeId term_of(ir::NodeId id) const {

@@ -8,6 +8,8 @@
 #include "support/match.hpp"
 
 #include <algorithm>
+#include <cstddef>
+#include <optional>
 #include <set>
 #include <string>
 #include <utility>
@@ -32,6 +34,9 @@ constexpr std::int64_t fewest_objects = 2;
 // jump do not pay.
 constexpr std::int64_t fewest_reals_that_jump = 4;
 constexpr std::int64_t objects_of_register = 8;
+// And so do reals that another loop reads into a register, which waits for elements that were just
+// stored one by one.
+constexpr std::int64_t fewest_reals_that_wait = 4;
 
 class Marking {
   public:
@@ -47,6 +52,10 @@ class Marking {
             if (loop && target.storage == ir::Storage::Next &&
                 !(is_worth_it(*loop) && is_possible(*loop)))
                 stored_one_by_one_.insert(target.name);
+        }
+        while (std::ranges::any_of(program.step, [&](const ir::Definition& definition) {
+            return reads_more_into_registers(definition);
+        })) {
         }
     }
 
@@ -134,6 +143,33 @@ class Marking {
         });
     }
 
+    // Remembers the tables of reals that a definition of few objects reads into registers; whether
+    // there are new ones.
+    bool reads_more_into_registers(const ir::Definition& definition) {
+        const auto* loop = ir::only_statement<ir::Loop>(definition.body);
+        if (!loop || program_[definition.target].scalar != ir::Scalar::Real) return false;
+        const ir::Nest nest = ir::nest_of(*loop);
+        const std::int64_t objects = ir::combinations(program_, nest.variables);
+        if (objects < fewest_reals_that_wait || objects >= objects_of_register ||
+            !is_worth_it(*loop) || !is_possible(*loop))
+            return false;
+        const std::size_t before = read_into_registers_.size();
+        for (const ir::NodeId root : ir::roots_of(*nest.body)) {
+            ir::any_node_of(program_, root, [&](ir::NodeId each) {
+                const auto buffer = ir::buffer_read_by(program_[each]);
+                if (buffer && is_table_of_step(program_[*buffer]))
+                    read_into_registers_.insert(program_[*buffer].name);
+                return false;
+            });
+        }
+        return read_into_registers_.size() > before;
+    }
+    // Stored by this step or by the one before.
+    static bool is_table_of_step(const ir::Buffer& buffer) {
+        return buffer.scalar == ir::Scalar::Real && !buffer.shape.empty() &&
+               (buffer.storage == ir::Storage::State || buffer.storage == ir::Storage::Scratch);
+    }
+
     // A draw takes a row of them as a register, whatever they cost.
     bool are_weights(const ir::Store& store) const {
         return rows_of_weights_.contains(store.target);
@@ -148,7 +184,9 @@ class Marking {
         const double least = draws ? least_cost_of_few_draws : least_cost_of_few_objects;
         return cost_of(value) >= least ||
                (scalar == ir::Scalar::Real && objects >= fewest_reals_that_jump && jumps(value) &&
-                !reads_new_values(value));
+                !reads_new_values(value)) ||
+               (scalar == ir::Scalar::Real && objects >= fewest_reals_that_wait &&
+                read_into_registers_.contains(program_[store.target].name));
     }
     // The value that a let of the block gives this name; the node itself if it is no name.
     ir::NodeId named_value(const ir::Block& block, ir::NodeId id) const {
@@ -203,7 +241,8 @@ class Marking {
 
     const ir::Program& program_;
     std::vector<ir::Properties> properties_;
-    std::set<std::string> stored_one_by_one_;  // tables of the next state
+    std::set<std::string> stored_one_by_one_;    // tables of the next state
+    std::set<std::string> read_into_registers_;  // tables of few reals
     std::set<ir::BufferId> rows_of_weights_;
 };
 

@@ -54,6 +54,21 @@ TEST(SkipUnchosenSums, LeavesOtherSums) {
     }
 }
 
+// Dear conditions are left to what they give where the table chooses nothing.
+TEST(SkipUnchosenSums, TestsCasesOfOneTable) {
+    const auto cases = [](const std::string& term, const std::string& rest) {
+        std::string chain = rest;
+        for (const char* value : {"1", "2", "3"})
+            chain = std::string("if (exists_{?o : obj} [sell(?o) ^ ") + term + " > " + value +
+                    "]) then " + value + " else " + chain;
+        return reward_that_skips(chain);
+    };
+    const std::string skips = "reward = real(select by a jump(bits(action.sell, 0) != 0, ";
+    EXPECT_EQ(cases(dear_term, "0").find(skips), 0u) << cases(dear_term, "0");
+    EXPECT_EQ(cases("v(?o)", "0").find(skips), std::string::npos);
+    EXPECT_EQ(cases(dear_term, "round[x * x * x]").find(skips), std::string::npos);
+}
+
 // Such an action mostly chooses something.
 TEST(SkipUnchosenSums, LeavesSumsOfActionsWithFewTables) {
     const std::string reward =

@@ -146,6 +146,25 @@ TEST(EvaluateTogether, TakesFewRealsThatJump) {
     EXPECT_EQ(marked("if (v(?p, ?x) > 1.0) then 0.0 else v(?p, ?x) + 1.0"), 0);
 }
 
+// An exponential would wait for reals of six pairs that were stored one by one, and so would these.
+TEST(EvaluateTogether, TakesFewRealsThatRegistersRead) {
+    const auto marked = [](const std::string& cpf_of_u) {
+        passes::Report report;
+        passes::evaluate_together(
+            grounded({.pvariables = "u(pair, obj) : { state-fluent, real, default = 0.0 };\n"
+                                    "v(pair, obj) : { state-fluent, real, default = 0.0 };\n"
+                                    "w(pair, obj) : { state-fluent, real, default = 0.0 };",
+                      .cpfs = "u'(?p, ?x) = " + cpf_of_u +
+                              ";\nv'(?p, ?x) = v(?p, ?x) * 0.5 + 0.1 * w(?p, ?x);\n"
+                              "w'(?p, ?x) = w(?p, ?x) * w(?p, ?x) - w(?p, ?x) * 0.5;"}),
+            report);
+        return report["loops over several objects at once"];
+    };
+    EXPECT_EQ(marked("u(?p, ?x)"), 0);
+    EXPECT_EQ(marked("exp[u(?p, ?x)]"), 1);
+    EXPECT_EQ(marked("exp[v(?p, ?x)]"), 3);
+}
+
 TEST(EvaluateTogether, TakesFewObjectsThatDrawByThresholds) {
     const auto marked = [](const std::string& cpf) {
         passes::Report report;
