@@ -4,11 +4,15 @@
 #include "ir/cost_model.hpp"
 #include "ir/fill_table.hpp"
 #include "ir/rewrite.hpp"
+#include "ir/split_quantifier.hpp"
 #include "support/match.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <map>
+#include <optional>
 #include <set>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -101,8 +105,8 @@ class Hoisting {
     // are statements.
     void find_tables(ir::NodeId id, const Variables& around, std::size_t loops, ir::Block& before) {
         if (elements_.contains(id) || !visited_.emplace(id, around).second) return;
-        if (is_worthwhile(id, around, loops)) return make_table(id, around, before);
-        if (const auto chosen = chosen_by_table(id, around)) return make_table(id, *chosen, before);
+        if (is_worthwhile(id, around, loops)) return make_table(id, around, loops, before);
+        if (is_chosen_by_table(id, around, loops, before)) return;
         const ir::Node node = program_[id];
         const auto variable = ir::bound_variable(node);
         const std::vector<ir::NodeId> operands = ir::operands_of(node);
@@ -129,46 +133,80 @@ class Hoisting {
         return entries <= ir::most_new_elements && hoisted < part * evaluations * cost;
     }
 
-    // A sum that one object decides, through an element of a constant table, f(OWNER[t]):
-    // what that is of the objects that the element chooses.
+    // Makes a table of an aggregation that a constant table chooses, or of the part of an exists or
+    // forall that its variable changes.
+    bool is_chosen_by_table(ir::NodeId id, const Variables& around, std::size_t loops,
+                            ir::Block& before) {
+        const auto* found = std::get_if<ir::Reduce>(&program_[id].form);
+        if (!found || builder_.properties(id).may_fault) return false;
+        const auto split = ir::split_quantifier(builder_, ir::Reduce(*found));
+        const ir::NodeId rest = split ? builder_.rebuild({ir::Scalar::Bool, split->rest}) : id;
+        if (!elements_.contains(rest)) {
+            const auto chosen = chosen_by_table(rest, around, loops);
+            if (!chosen) return false;
+            make_table(*chosen, before);
+        }
+        if (rest != id) elements_[id] = with_fixed(*split, elements_.at(rest));
+        return true;
+    }
+    // An aggregation that objects decide only through an element of a constant table, f(OWNER[t]):
+    // what that is of the objects that the element chooses, and of the other variables around it.
     struct Chosen {
+        ir::NodeId aggregation;
         ir::NodeId element;
-        ir::VariableId object;
+        Variables dimensions;  // the object that the element chooses is the last
         ir::NodeId value;
     };
-    std::optional<Chosen> chosen_by_table(ir::NodeId id, const Variables& around) {
+    std::optional<Chosen> chosen_by_table(ir::NodeId id, const Variables& around,
+                                          std::size_t loops) {
         const ir::Properties properties = builder_.properties(id);
-        const auto* sum = std::get_if<ir::Reduce>(&program_[id].form);
-        if (!sum || sum->op != Reduction::Sum || properties.uniform ||
-            properties.cost < worth_choosing || !ir::is_droppable(properties) ||
-            properties.free_variables.size() != 1 || !ir::is_known_before(program_, id, filled_))
+        if (!may_choose(id, around.size() > loops) || properties.uniform ||
+            !ir::is_droppable(properties) || !ir::is_known_before(program_, id, filled_))
             return std::nullopt;
-        const auto element = element_by_table(id, builder_.index(properties.free_variables[0]));
+        const auto element = element_by_table(id, properties.free_variables);
         if (!element) return std::nullopt;
         const auto [place, type] = *element;
-        const double entries = static_cast<double>(program_.types[type].objects.size());
-        if (!is_worth_a_table(properties.cost, entries, around, worthwhile_by_table))
-            return std::nullopt;
         const ir::VariableId object = object_of(type);
         std::map<ir::NodeId, ir::NodeId> known = {{place, builder_.index(object)}};
         const ir::NodeId value = ir::replace_in(builder_, id, known);
-        if (builder_.properties(value).free_variables != Variables{object}) return std::nullopt;
-        return Chosen{place, object, value};
+        Variables dimensions = needed_by(value, around);
+        if (ir::depends_on_any(builder_.properties(place), dimensions)) return std::nullopt;
+        dimensions.push_back(object);
+        if (!is_worth_a_table(properties.cost, product_of_sizes(dimensions), around,
+                              worthwhile_by_table))
+            return std::nullopt;
+        return Chosen{id, place, std::move(dimensions), value};
     }
-    // The first index that is an element of a constant table at the object, and of which type the
-    // objects are that it chooses.
-    std::optional<std::pair<ir::NodeId, std::uint32_t>> element_by_table(ir::NodeId id,
-                                                                         ir::NodeId object) const {
+    // A long sum of one object; and an exists or forall that another aggregation repeats. Loops
+    // alone read bools by their places (read_places).
+    bool may_choose(ir::NodeId id, bool is_repeated) const {
+        const auto* reduce = std::get_if<ir::Reduce>(&program_[id].form);
+        if (!reduce) return false;
+        const ir::Properties& properties = builder_.properties(id);
+        if (reduce->op == Reduction::Sum)
+            return properties.cost >= worth_choosing && properties.free_variables.size() == 1;
+        return program_[id].type == ir::Scalar::Bool && is_repeated &&
+               properties.cost >= worth_hoisting;
+    }
+    // The first index that is an element of a constant table at some of the variables, and of which
+    // type the objects are that it chooses.
+    std::optional<std::pair<ir::NodeId, std::uint32_t>> element_by_table(
+        ir::NodeId id, const Variables& variables) const {
         const auto* load = std::get_if<ir::Load>(&program_[id].form);
-        for (std::size_t k = 0; load && k < program_[load->buffer].types.size(); ++k) {
-            const auto* index = std::get_if<ir::Load>(&program_[load->indices[k]].form);
-            if (index && index->indices == std::vector{object} &&
-                program_[index->buffer].storage == ir::Storage::Constant)
+        for (std::size_t k = 0; load && k < program_[load->buffer].types.size(); ++k)
+            if (is_of_table(load->indices[k], variables))
                 return std::pair{load->indices[k], program_[load->buffer].types[k]};
-        }
         for (const ir::NodeId operand : ir::operands_of(program_[id]))
-            if (const auto found = element_by_table(operand, object)) return found;
+            if (const auto found = element_by_table(operand, variables)) return found;
         return std::nullopt;
+    }
+    bool is_of_table(ir::NodeId id, const Variables& variables) const {
+        const auto* load = std::get_if<ir::Load>(&program_[id].form);
+        return load && program_[load->buffer].storage == ir::Storage::Constant &&
+               !load->indices.empty() && std::ranges::all_of(load->indices, [&](ir::NodeId index) {
+                   const auto* variable = std::get_if<ir::Index>(&program_[index].form);
+                   return variable && contains(variables, variable->variable);
+               });
     }
     // A loop index over the objects of a type that no expression has.
     ir::VariableId object_of(std::uint32_t type) {
@@ -200,12 +238,8 @@ class Hoisting {
 
     // ---------------------------------------------------------------------------- making
 
-    void make_table(ir::NodeId id, const Variables& around, ir::Block& before) {
-        Variables dimensions;
-        for (ir::VariableId variable : around) {
-            const auto& needed = builder_.properties(id).free_variables;
-            if (std::ranges::binary_search(needed, variable)) dimensions.push_back(variable);
-        }
+    void make_table(ir::NodeId id, const Variables& around, std::size_t loops, ir::Block& before) {
+        const Variables dimensions = in_rows(id, needed_by(id, around), around, loops);
         // The parts of its value may also become tables.
         for (ir::NodeId operand : ir::operands_of(program_[id])) {
             Variables inner = dimensions;
@@ -220,13 +254,46 @@ class Hoisting {
         replaced_.clear();
         ++report_["tables filled before loops"];
     }
-    void make_table(ir::NodeId id, const Chosen& chosen, ir::Block& before) {
-        const Variables dimensions = {chosen.object};
-        const ir::BufferId table = new_table(id, dimensions);
-        ir::fill_table(builder_, before, table, dimensions, chosen.value);
-        elements_[id] = builder_.load(table, {chosen.element});
+    void make_table(const Chosen& chosen, ir::Block& before) {
+        const ir::BufferId table = new_table(chosen.aggregation, chosen.dimensions);
+        const ir::NodeId own =
+            ir::fill_table(builder_, before, table, chosen.dimensions, chosen.value);
+        std::map<ir::NodeId, ir::NodeId> known = {
+            {builder_.index(chosen.dimensions.back()), chosen.element}};
+        elements_[chosen.aggregation] = ir::replace_in(builder_, own, known);
         replaced_.clear();
         ++report_["tables filled before loops"];
+    }
+
+    // The variables of the expression, outermost first.
+    Variables needed_by(ir::NodeId id, const Variables& around) const {
+        Variables needed;
+        std::ranges::copy_if(around, std::back_inserter(needed), [&](ir::VariableId variable) {
+            return contains(builder_.properties(id).free_variables, variable);
+        });
+        return needed;
+    }
+    // Bools of the objects of a loop lie in rows, one for the objects of each aggregation, so that
+    // registers read them.
+    Variables in_rows(ir::NodeId id, Variables dimensions, const Variables& around,
+                      std::size_t loops) const {
+        const std::span<const ir::VariableId> all_loops = std::span(around).first(loops);
+        // The algorithm of std::ranges does not compile with clang++ 14.
+        if (program_[id].type == ir::Scalar::Bool)
+            std::stable_partition(
+                dimensions.begin(), dimensions.end(), [&](ir::VariableId variable) {
+                    return std::ranges::find(all_loops, variable) == all_loops.end();
+                });
+        return dimensions;
+    }
+    static bool contains(const Variables& variables, ir::VariableId variable) {
+        return std::ranges::find(variables, variable) != variables.end();
+    }
+
+    ir::NodeId with_fixed(const ir::SplitQuantifier& split, ir::NodeId rest) {
+        std::vector<ir::NodeId> parts = split.fixed;
+        parts.push_back(rest);
+        return ir::joined(builder_, split.op, parts);
     }
 
     ir::BufferId new_table(ir::NodeId id, const Variables& dimensions) {

@@ -20,6 +20,20 @@
 //     for t in tool
 //         next.broken[t] = ... scratch.broken-by-rover[OWNER[t]] ...
 //
+// So may it choose for an exists or forall that another aggregation repeats. Of an exists or forall
+// the conditions that its variable does not change stay where they are:
+//
+//     for y in row
+//         free[y] = forall[j in shape](!(exists[x in column](IS-THERE[y, j] && at[x, ROW[y, j]])))
+//                                       =>
+//     for r in row
+//         scratch.free-by-row[r] = exists[x in column](at[x, r])
+//     for y in row
+//         free[y] = forall[j in shape](!(IS-THERE[y, j] && scratch.free-by-row[ROW[y, j]]))
+//
+// Bools of the objects of a loop are the last dimension of their table, so that registers take rows
+// of them (evaluate_together).
+//
 // The table is filled before the statement that needs it; later statements of the step, and the
 // reward, also use it. A fallible expression stays where it is. Conditions have no tables, so they
 // are left alone. share_subexpressions names expressions that an outer loop fixes.

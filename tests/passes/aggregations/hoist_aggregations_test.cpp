@@ -137,6 +137,38 @@ TEST(HoistAggregations, LeavesSumsThatAlsoNeedTheObjectItself) {
     EXPECT_EQ(step_with_owners(sum, passes::hoist_aggregations), step_with_owners(sum, nullptr));
 }
 
+TEST(HoistAggregations, FillsATableOfBoolsFromWhichAConstantChooses) {
+    EXPECT_NE(step_with_owners("sum_{?x : obj} [exists_{?y : color} [at(OWNER(?t), ?x, ?y) ^ "
+                               "RISK(?t, @red) < 0.4 ^ RISK(?x, ?y) < 0.4]]",
+                               passes::hoist_aggregations)
+                  .find("for x in obj\n"
+                        "    for pair in pair\n"
+                        "        scratch.v-by-obj-pair[x, pair] = exists[y in color]("
+                        "state.at[pair, x, y] && RISK[x, y] < 0.4)\n"
+                        "for t in obj\n"
+                        "    next.v[t] = real(sum[x in obj](int("
+                        "RISK[t, 0] < 0.4 && scratch.v-by-obj-pair[x, OWNER[t]])))\n"),
+              std::string::npos);
+}
+
+TEST(HoistAggregations, LeavesAnExistsThatLoopsAloneRepeat) {
+    const std::string exists = "exists_{?x : obj} [at(OWNER(?t), ?x, @red) ^ RISK(?x, @red) < 0.4]";
+    EXPECT_EQ(step_with_owners(exists, passes::hoist_aggregations),
+              step_with_owners(exists, nullptr));
+}
+
+TEST(HoistAggregations, LetsTheBoolsOfALoopLieInRows) {
+    EXPECT_NE(
+        step_with_owners("sum_{?x : obj, ?z : obj} [RISK(?z, @red) < 0.4 ^ "
+                         "(exists_{?y : color} [at(OWNER(?x), ?x, ?y) ^ at(OWNER(?t), ?t, ?y)])]",
+                         passes::hoist_aggregations)
+            .find("for x in obj\n"
+                  "    for t in obj\n"
+                  "        scratch.v-by-obj-obj[x, t] = exists[y in color]("
+                  "state.at[OWNER[x], x, y] && state.at[OWNER[t], t, y])\n"),
+        std::string::npos);
+}
+
 TEST(HoistAggregations, LeavesWhatMayFault) {
     const ir::Program before = grounded(
         shop("sum_{?i : color} [by(?p, ?i) ^ (exists_{?c : pair} [Bernoulli(price(?i))])]"));
