@@ -14,6 +14,7 @@
 #include "passes/aggregations/index_directly.hpp"
 #include "passes/aggregations/join_masks.hpp"
 #include "passes/aggregations/keep_bools.hpp"
+#include "passes/aggregations/look_up_cases.hpp"
 #include "passes/aggregations/make_aggregations_sparse.hpp"
 #include "passes/aggregations/merge_draws.hpp"
 #include "passes/aggregations/order_objects.hpp"
@@ -362,6 +363,12 @@ constexpr Pass in_order[] = {
      {"skip_zero_terms", "count_bits"},
      "the sums that are still expensive are known",
      adds_tests},
+    {"look_up_cases",
+     Phase::Aggregations,
+     look_up_cases,
+     "cases that compare the same counts with constants are looked up",
+     {"tabulate_counts", "skip_unchosen_sums"},
+     "the cases are tables, and the pass above goes by the cost of conditions"},
     {"pair_angles",
      Phase::Sharing,
      pair_angles,

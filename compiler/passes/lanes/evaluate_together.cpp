@@ -180,13 +180,25 @@ class Marking {
         const std::int64_t objects = ir::combinations(program_, nest.variables);
         if (scalar == ir::Scalar::Bool || objects < fewest_objects) return false;
         const ir::NodeId value = named_value(*nest.body, store.value);
-        const bool draws = std::holds_alternative<ir::Interval>(program_[value].form);
+        const bool draws = draws_by_thresholds(value);
         const double least = draws ? least_cost_of_few_draws : least_cost_of_few_objects;
         return cost_of(value) >= least ||
                (scalar == ir::Scalar::Real && objects >= fewest_reals_that_jump && jumps(value) &&
                 !reads_new_values(value)) ||
                (scalar == ir::Scalar::Real && objects >= fewest_reals_that_wait &&
                 read_into_registers_.contains(program_[store.target].name));
+    }
+    // Draws by thresholds, or keeps a value where no draw is asked for.
+    bool draws_by_thresholds(ir::NodeId id) const {
+        if (std::holds_alternative<ir::Interval>(program_[id].form)) return true;
+        const auto* select = std::get_if<ir::Select>(&program_[id].form);
+        const auto either = [&](ir::NodeId drawn, ir::NodeId kept) {
+            return std::holds_alternative<ir::Interval>(program_[drawn].form) &&
+                   ir::is_cheap(properties_[kept.index]);
+        };
+        return select && ir::is_cheap(properties_[select->condition.index]) &&
+               (either(select->then_value, select->else_value) ||
+                either(select->else_value, select->then_value));
     }
     // The value that a let of the block gives this name; the node itself if it is no name.
     ir::NodeId named_value(const ir::Block& block, ir::NodeId id) const {

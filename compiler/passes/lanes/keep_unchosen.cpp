@@ -7,6 +7,7 @@
 #include "ir/rewrite.hpp"
 
 #include <cmath>
+#include <cstdint>
 #include <map>
 #include <optional>
 #include <set>
@@ -22,6 +23,8 @@ namespace {
 // steps whose action chooses something. So they are more than test_cheap_first.cpp counts for one
 // such jump. The number is fitted (docs/decisions.md).
 constexpr double worth_skipping = 180;
+// More objects fill a register of one environment.
+constexpr std::int64_t most_few_draws = 7;
 
 class Keeping {
   public:
@@ -78,12 +81,18 @@ class Keeping {
         return choices;
     }
 
-    // The operations of the loop as one environment runs it (ir/cost_model.hpp).
+    // The operations of the loop as one environment runs it (ir/cost_model.hpp). Few objects that
+    // draw ints or reals in one register count one by one, as in packs: their draws take as long as
+    // several of one object.
     double cost_of(const ir::Loop& loop, const ir::Nest& nest, ir::NodeId value) {
         std::map<ir::NodeId, ir::NodeId> known;
         const ir::NodeId whole = replace_reads(value, known, [](ir::BufferId) { return false; });
-        const auto objects = static_cast<double>(ir::combinations(program_, nest.variables));
-        return std::ceil(objects / ir::iterations_at_once(loop)) * builder_.properties(whole).cost;
+        const std::int64_t objects = ir::combinations(program_, nest.variables);
+        const ir::Properties& properties = builder_.properties(whole);
+        const bool are_few_draws = properties.random && objects <= most_few_draws &&
+                                   program_[value].type != ir::Scalar::Bool;
+        const double at_once = are_few_draws ? 1 : ir::iterations_at_once(loop);
+        return std::ceil(static_cast<double>(objects) / at_once) * properties.cost;
     }
 
     // Remembers the values of the Lets. A fault of one must not disappear with the loop.

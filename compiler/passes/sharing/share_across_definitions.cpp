@@ -26,6 +26,7 @@ constexpr double most_shared_elements = 1e6;
 struct UseByDefinition {
     double times = 0;     // evaluations in a step
     bool always = false;  // and not in a branch
+    bool waits = false;   // all of them are jumped over where an action chooses nothing
 };
 // The users are the CPFs in their order, and then the reward.
 using UsesByDefinition = std::map<std::size_t, UseByDefinition>;
@@ -89,9 +90,10 @@ class DefinitionSharing {
 
     void use(ir::NodeId id, std::size_t user, const UseByDefinition& more) {
         if (more.times == 0) return;
-        UseByDefinition& use = uses_[id][user];
+        UseByDefinition& use = uses_[id].try_emplace(user, more).first->second;
         use.times = std::max(use.times, more.times);
         use.always |= more.always;
+        use.waits &= more.waits;
     }
 
     // The first user behind which everything is there that a node reads. A local value is there for
@@ -136,8 +138,11 @@ class DefinitionSharing {
         for (std::size_t k = 0; k < operands.size(); ++k) {
             const double repeated =
                 bound && k == 0 ? static_cast<double>(program_[*bound].size) : 1;
-            const bool is_branch = std::holds_alternative<ir::Select>(node.form) && k > 0;
-            use(operands[k], user, {of_node.times * repeated, of_node.always && !is_branch});
+            const auto* const select = std::get_if<ir::Select>(&node.form);
+            const bool is_jump = select && select->evaluated == ir::Evaluated::Jump;
+            use(operands[k], user,
+                {of_node.times * repeated, of_node.always && !(select && k > 0),
+                 of_node.waits || (is_jump && k == 1)});
         }
     }
 
@@ -149,13 +154,14 @@ class DefinitionSharing {
         double elements = 1, evaluations = 0;
         for (ir::VariableId variable : properties.free_variables)
             elements *= static_cast<double>(program_[variable].size);
-        bool always = false;
+        bool always = false, waits = true;
         for (const auto& [user, use] : uses) {
             evaluations += use.times;
             always |= use.always;
+            waits &= use.waits;
         }
         const double shared = elements * (properties.cost + cost_of_shared_element);
-        return (always || properties.cost <= cheap_enough_to_try) &&
+        return (always || (properties.cost <= cheap_enough_to_try && !waits)) &&
                elements <= most_shared_elements &&
                shared + evaluations * cost_of_shared_element < evaluations * properties.cost;
     }

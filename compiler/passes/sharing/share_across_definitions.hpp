@@ -7,7 +7,7 @@
 // The value is stored in a table of the variables that it depends on, filled before the first CPF
 // that needs it, if that saves work. A fallible expression stays where it is, and so does a long
 // computation that no CPF needs in any case. Shorter ones are computed even if no branch that needs
-// them is taken.
+// them is taken, unless all of them wait for a choice of the action (skip_unchosen_sums.hpp).
 #pragma once
 
 #include "ir/ir.hpp"

@@ -177,7 +177,8 @@ TEST(EvaluateTogether, TakesFewObjectsThatDrawByThresholds) {
     };
     const std::string draw = "Discrete(color, @red : 0.25, @green : 0.5, @blue : 0.25)";
     EXPECT_EQ(marked(draw), 1);
-    EXPECT_EQ(marked("if (c) then @red else " + draw), 0);
+    EXPECT_EQ(marked("if (c) then @red else " + draw), 1);
+    EXPECT_EQ(marked("if (c) then @red else if (c) then @blue else " + draw), 0);
 }
 
 // Both objects draw from the weights of three others.

@@ -57,6 +57,24 @@ TEST(ShareAcrossDefinitions, LooksIntoBranches) {
     EXPECT_NE(result.step.find("scratch.sin-y = sin(state.y)\n"), std::string::npos) << result.step;
 }
 
+// Two CPFs that jump over a sine compute it behind their jumps.
+TEST(ShareAcrossDefinitions, LeavesWhatWaitsForAChoice) {
+    const auto shares = [](ir::Evaluated evaluated) {
+        ir::Program program = grounded(
+            {.pvariables = "x : { state-fluent, real, default = 1.0 };\n"
+                           "y : { state-fluent, real, default = 1.0 };\n"
+                           "a : { action-fluent, bool, default = false };",
+             .cpfs = "x' = if (a) then sin[y] else x; y' = if (a) then y + sin[y] else y;"});
+        for (ir::Node& node : program.nodes)
+            if (auto* select = std::get_if<ir::Select>(&node.form)) select->evaluated = evaluated;
+        passes::Report report;
+        return step_text(valid(passes::share_across_definitions(program, report)))
+                   .find("scratch.sin-y = ") != std::string::npos;
+    };
+    EXPECT_TRUE(shares(ir::Evaluated::Branch));
+    EXPECT_FALSE(shares(ir::Evaluated::Jump));
+}
+
 TEST(ShareAcrossDefinitions, LeavesWhatIsCheapOrNeededOnce) {
     const Shared result =
         shared("s = 0; x' = x * y + sin[y] * sin[y]; y' = x * y; v'(?o) = v(?o); w'(?o) = w(?o);");
