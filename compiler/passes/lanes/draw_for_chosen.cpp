@@ -1,5 +1,6 @@
 #include "passes/lanes/draw_for_chosen.hpp"
 
+#include "ir/analysis.hpp"
 #include "ir/builder.hpp"
 #include "ir/fill_table.hpp"
 #include "ir/nest.hpp"
@@ -67,7 +68,8 @@ class Drawing {
     // The table of the action of `chosen && draw`, with its draw in a branch.
     std::optional<ir::BufferId> choice_of_draw(ir::NodeId id, const ir::Nest& nest) {
         const auto* select = std::get_if<ir::Select>(&program_[id].form);
-        if (!select || select->else_value != builder_.constant(false)) return std::nullopt;
+        if (!select || ir::constant<bool>(program_, select->else_value) != false)
+            return std::nullopt;
         const auto* load = std::get_if<ir::Load>(&program_[select->condition].form);
         const bool is_choice = load && ir::are_variables_of(program_, load->indices, nest) &&
                                acts_with_few_true(program_[load->buffer], least_per_draw);
