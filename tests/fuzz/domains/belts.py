@@ -1,0 +1,84 @@
+"""Belts: what lies on them moves by one place in each step, and more is put where an index says."""
+
+from domains.draft import ACTION, CONSTANT, STATE, Draft, boolean, integer, of, over, real
+from rddl_problem import Type
+
+
+def add(draft: Draft) -> None:
+    belt, place = draft.objects("belt"), places(draft)
+    after = chain(draft, place)
+    number = draft.declare("NUMBER", CONSTANT, "int", place)
+    number.values = {(member,): str(index) for index, member in enumerate(draft.problem.type(place).members)}
+    carried = draft.declare("carried", STATE, draft.pick(["real", "real", "int", "bool"]), belt, place)
+    speed = draft.declare("speed", ACTION, "bool", belt, default="false")
+    onward = moved(draft, place, after, carried)
+    target, share = where(draft, belt, place)
+    feed = draft.bounded(draft.signed(draft.some_real({"?b": belt})))
+    draft.define(carried, ("?b", "?p"), more(draft, carried, onward, number, target, share, feed, speed))
+    draft.earn(arriving(draft, belt, place, carried))
+    if draft.chance(0.5):
+        all_places = over("sum", "?p", place, draft.at(carried, "?b", "?p"))
+        draft.earn(over(draft.pick(["max", "min"]), "?b", belt, real("(%s + 0.0)", all_places)))
+    if draft.chance(0.2) and carried.range != "bool":
+        draft.problem.invariants.append(over("forall", "?b", belt, over("forall", "?p", place, boolean("(%s >= -1000)", draft.at(carried, "?b", "?p")))))
+
+
+def arriving(draft: Draft, belt: str, place: str, carried):
+    """What lies on the head of each belt: one place, now and then others too."""
+    head = draft.declare("HEAD", CONSTANT, "bool", place, default="false")
+    for member in draft.problem.type(place).members[: draft.pick([1, 1, 1, 2])]:
+        head.values[(member,)] = "true"
+    here, what = draft.at(head, "?p"), draft.at(carried, "?b", "?p")
+    if carried.range == "bool":
+        return over("sum", "?b", belt, over("exists", "?p", place, boolean("(%s ^ %s)", here, what)))
+    arrived = over("sum", "?p", place, real("(%s * %s)", here, what))
+    return over("sum", "?b", belt, draft.revealed(real("(%s * 1.0)", arrived)) if draft.chance(0.5) else arrived)
+
+
+def places(draft: Draft) -> str:
+    name = draft.fresh("slot")
+    draft.problem.types.append(Type(name, False, [f"{name}-{i}" for i in range(draft.pick([1, 2, 3, 5, 7, 8, 9, 12, 16, 17, 21]))]))
+    return name
+
+
+def chain(draft: Draft, place: str):
+    """Each place and the one that comes to it: the next one, now and then the one before, in a ring, or with a gap."""
+    table = draft.declare("AFTER", CONSTANT, "bool", place, place, default="false")
+    members = draft.problem.type(place).members
+    by = draft.pick([1, 1, 1, 1, -1, 2])
+    is_ring, gap = draft.chance(0.2), draft.rng.randrange(len(members)) if draft.chance(0.2) else None
+    for index, member in enumerate(members):
+        if (is_ring or 0 <= index + by < len(members)) and index != gap:
+            table.values[(member, members[(index + by) % len(members)])] = "true"
+    return table
+
+
+def moved(draft: Draft, place: str, after, carried):
+    here, there = draft.at(after, "?p", "?o"), draft.at(carried, "?b", "?o")
+    if carried.range == "bool":
+        return over("exists", "?o", place, boolean("(%s ^ %s)", here, there))
+    form = draft.pick(["(%s * %s)", "(%s * %s)", "(if (%s) then %s else 0)"])
+    return over("sum", "?o", place, of(carried.range, form, here, there))
+
+
+def where(draft: Draft, belt: str, place: str):
+    """The place of what is put down, and the share that falls beside it."""
+    way = real("abs[%s]", draft.bounded(draft.some_real({"?b": belt})))
+    target = draft.interm("target", {"?b": belt}, integer("floor[%s]", way))
+    share = draft.interm("share", {"?b": belt}, real("(%s - %s)", way, draft.at(target, "?b")))
+    return target, share
+
+
+def more(draft: Draft, carried, onward, number, target, share, feed, speed):
+    is_here = boolean("(%s == %s)", draft.at(number, "?p"), draft.at(target, "?b"))
+    is_beside = boolean("(%s == (%s + 1))", draft.at(number, "?p"), draft.at(target, "?b"))
+    if carried.range == "bool":
+        return boolean(draft.pick(["(%s | (%s ^ %s))", "(if (%s) then true else (%s ^ %s))"]), onward, is_here, draft.at(speed, "?b"))
+    if carried.range == "int":
+        return integer("max[-50, min[50, (%s + %s * %s)]]", onward, is_here, draft.at(speed, "?b"))
+    rest = draft.at(share, "?b")
+    put = real("(%s * (1 - %s) * %s)", is_here, rest, feed)
+    if draft.chance(0.7):
+        put = real("(%s + %s * %s * %s)", put, is_beside, rest, feed)
+    both = real(draft.pick(["(%s + %s)", "(%s + %s)", "(%s - %s)"]), *draft.pick([(put, onward), (onward, put)]))
+    return both if draft.chance(0.5) else draft.bounded(both)
