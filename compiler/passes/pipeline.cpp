@@ -4,10 +4,13 @@
 #include "passes/aggregations/compare_cases.hpp"
 #include "passes/aggregations/count_bits.hpp"
 #include "passes/aggregations/count_bools.hpp"
+#include "passes/aggregations/count_equals.hpp"
 #include "passes/aggregations/count_factors.hpp"
+#include "passes/aggregations/count_values.hpp"
 #include "passes/aggregations/decide_draws.hpp"
 #include "passes/aggregations/draw_over_objects.hpp"
 #include "passes/aggregations/factor_aggregations.hpp"
+#include "passes/aggregations/factor_cases.hpp"
 #include "passes/aggregations/factor_quantifiers.hpp"
 #include "passes/aggregations/fuse_interm_fluents.hpp"
 #include "passes/aggregations/hoist_aggregations.hpp"
@@ -183,6 +186,12 @@ constexpr Pass in_order[] = {
      "sums of reals that only count, in steps of constants, count in ints",
      {"index_directly"},
      "sums of one term are gone"},
+    {"factor_cases",
+     Phase::Aggregations,
+     factor_cases,
+     "a condition that all cases of one int share is tested once",
+     {"fuse_interm_fluents"},
+     "the cases stand together, and the passes below make tables, and one draw, of what is left"},
     {"tabulate_thresholds",
      Phase::Aggregations,
      tabulate_thresholds,
@@ -225,11 +234,17 @@ constexpr Pass in_order[] = {
      "an exists or forall asks alone for each of the objects that their values tell apart",
      {"index_directly"},
      "an equality is better; and the passes below order and tabulate what is left"},
+    {"count_equals",
+     Phase::Aggregations,
+     count_equals,
+     "an exists or forall over different objects of equal values counts those of each value",
+     {"separate_objects"},
+     "an equality is better than counts; and the pass below takes what differs out of conditions"},
     {"order_objects",
      Phase::Aggregations,
      order_objects,
      "an exists or forall visits objects that may change places in one order",
-     {"visit_true", "separate_objects"},
+     {"visit_true", "count_equals"},
      "an equality is better than an order; and the passes below take aggregations apart"},
     {"factor_aggregations",
      Phase::Aggregations,
@@ -369,6 +384,12 @@ constexpr Pass in_order[] = {
      "cases that compare the same counts with constants are looked up",
      {"tabulate_counts", "skip_unchosen_sums"},
      "the cases are tables, and the pass above goes by the cost of conditions"},
+    {"count_values",
+     Phase::Aggregations,
+     count_values,
+     "sums and tests of single values, where a step may jump over them, share counts of all values",
+     {"count_equals", "look_up_cases"},
+     "other counts of the same values are there, and the pass above looks for sums"},
     {"pair_angles",
      Phase::Sharing,
      pair_angles,

@@ -4,6 +4,7 @@
 #include "emit/cpp/literals.hpp"
 #include "emit/cpp/print.hpp"
 #include "emit/lower/operators.hpp"
+#include "ir/shared_in_cases.hpp"
 #include "ir/visits.hpp"
 #include "support/match.hpp"
 
@@ -620,7 +621,9 @@ tree::Expression FunctionBody::branch(const ir::Select& select) {
         arguments.push_back(tree::word(expressions_.context()));
     }
     arguments.push_back(expressions_.lower(select.condition));
-    for (ir::NodeId lambda : lambdas) arguments.push_back({tree::Lambda{{}, returning(lambda, 2)}});
+    auto shared = ir::shared_in_cases(program(), expressions_.unit().properties, select);
+    for (ir::NodeId lambda : lambdas)
+        arguments.push_back({tree::Lambda{{}, returning(lambda, 2, std::exchange(shared, {}))}});
     return tree::call("rddl::branch", std::move(arguments));
 }
 
@@ -648,9 +651,13 @@ tree::Block FunctionBody::inner(std::size_t levels, Add&& add) {
     return std::exchange(statements_, std::move(around));
 }
 
-tree::Block FunctionBody::returning(ir::NodeId id, std::size_t levels) {
+tree::Block FunctionBody::returning(ir::NodeId id, std::size_t levels,
+                                    const std::vector<ir::NodeId>& named) {
     const auto before = expressions_.mark();
-    tree::Block body = inner(levels, [&] { return_value(id); });
+    tree::Block body = inner(levels, [&] {
+        for (const ir::NodeId each : named) name_value(each);
+        return_value(id);
+    });
     expressions_.return_to(before);
     return body;
 }

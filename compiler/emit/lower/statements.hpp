@@ -74,7 +74,9 @@ class FunctionBody {
     // The statements that `add` adds, deeper by so many levels.
     template <class Add>
     tree::Block inner(std::size_t levels, Add&& add);
-    tree::Block returning(ir::NodeId id, std::size_t levels);
+    // A value, after some of its parts have names.
+    tree::Block returning(ir::NodeId id, std::size_t levels,
+                          const std::vector<ir::NodeId>& named = {});
 
     std::size_t room(Use use) const;
     bool fits(Use use, ir::NodeId id);

@@ -5,6 +5,7 @@
 #include "ir/builder.hpp"
 #include "ir/cost_model.hpp"
 #include "ir/evaluator.hpp"
+#include "ir/nest.hpp"
 #include "ir/rewrite.hpp"
 #include "passes/analyses/sparsity_pattern.hpp"
 

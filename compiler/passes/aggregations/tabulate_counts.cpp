@@ -135,10 +135,12 @@ class CountTabulation {
     std::optional<ir::NodeId> looked_up(ir::NodeId id) {
         if (is_tested_already(id)) return id;
         const auto [only_count, count, cost] = dependence_on_operands(id);
-        if (!only_count || !count || program_[id].type == ir::Scalar::Bool) return std::nullopt;
+        if (!only_count || !count) return std::nullopt;
         const bool is_tested = is_counter(*count);
         const bool is_worth_it = cost >= (is_tested ? worth_a_tested_table : worth_a_count_table);
         if (!is_worth_it || is_bound_inside(*count, id)) return std::nullopt;
+        if (program_[id].type == ir::Scalar::Bool)
+            return is_tested ? std::nullopt : compared(id, *count);
         const std::vector<ir::NodeId> cases = cases_of(id, *count);
         const std::vector<ir::VariableId> variables = variables_of(cases);
         const double elements = static_cast<double>(cases.size()) * objects_of(variables);
@@ -155,8 +157,35 @@ class CountTabulation {
         const auto kinds = kinds_of(rows);
         auto [table, indices] = kinds ? table_of_kinds(name, rows, *kinds, variables)
                                       : table_of_objects(name, rows, variables);
+        if (program_[table].values.is_uniform() && ir::is_droppable(builder_.properties(*count)))
+            return builder_.constant(program_[table].values[0]);
         indices.push_back(builder_.apply(Operator::Subtract, {rewritten(*count), least(*count)}));
         return builder_.load(table, std::move(indices));
+    }
+
+    // A bool that is true for counts beside each other compares the count with their ends.
+    std::optional<ir::NodeId> compared(ir::NodeId id, ir::NodeId count) {
+        const std::vector<ir::NodeId> cases = cases_of(id, count);
+        const auto is_true = [&](ir::NodeId value) {
+            return ir::constant<bool>(program_, value) == true;
+        };
+        const auto is_false = [&](ir::NodeId value) {
+            return ir::constant<bool>(program_, value) == false;
+        };
+        const auto begin = std::ranges::find_if_not(cases, is_false);
+        const auto end = std::find_if_not(begin, cases.end(), is_true);
+        if (begin == end || !std::all_of(end, cases.end(), is_false)) return std::nullopt;
+        ++report_["expressions of a count made comparisons"];
+        const double lower = builder_.properties(count).range->lower;
+        const ir::NodeId first = integer(lower + static_cast<double>(begin - cases.begin())),
+                         last = integer(lower + static_cast<double>(end - cases.begin()) - 1);
+        const ir::NodeId known = rewritten(count);
+        if (first == last) return builder_.apply(Operator::Equal, {known, first});
+        std::vector<ir::NodeId> parts;
+        if (begin != cases.begin())
+            parts.push_back(builder_.apply(Operator::GreaterEqual, {known, first}));
+        if (end != cases.end()) parts.push_back(builder_.apply(Operator::LessEqual, {known, last}));
+        return ir::joined(builder_, Operator::And, parts);
     }
 
     bool is_tested_already(ir::NodeId id) const {

@@ -51,7 +51,7 @@ TEST(TabulateCounts, LooksUpSumsOfCasesThatHold) {
     EXPECT_EQ(tabulated("7 * (" + count + " == 0) + 2 * (" + count + " == 1) + 5 * (" + count +
                         " == 2) + 4 * (" + count + " == 3)"),
               "x-by-count[sum[o in obj](int(state.p[o]))]");
-    EXPECT_EQ(tabulated("sum_{?u : obj} [E(?u) * (if (" + count + " == 1) then 3 else if (" +
+    EXPECT_EQ(tabulated("sum_{?u : obj} [(E(?u) + 1) * (if (" + count + " == 1) then 3 else if (" +
                         count + " == 2) then 5 else 7)] * 0.5"),
               "x-by-count[sum[o in obj](int(state.p[o]))]");
 }
@@ -174,8 +174,29 @@ TEST(TabulateCounts, LeavesIntsThatDoNotCount) {
 
 // Not every int beyond 2^53 is a double, which ranges are of.
 TEST(TabulateCounts, LeavesCountsThatAreTooLarge) {
-    EXPECT_EQ(tabulated("exp[(exists_{?o : obj} p(?o)) - 9007199254740993]"),
+    EXPECT_EQ(tabulated("sin[((exists_{?o : obj} p(?o)) - 9007199254740993) * "
+                        "(exists_{?o : obj} p(?o))]"),
               "x-by-count[int(exists[o in obj](state.p[o]))]");
+}
+
+// The sine and the cosine of 0 to 3: 0, 0.84, 0.91, 0.14 and 1, 0.54, -0.42, -0.99.
+TEST(TabulateCounts, ComparesTheCountWhereABoolAsksForNeighbours) {
+    const auto chosen = [](const std::string& condition) {
+        return tabulated("if (x > 1.0 | " + condition + ") then 1.0 else 2.0");
+    };
+    const auto comparing = [](const std::string& test) {
+        return "select(state.x > 1.0 || " + test + ", 1.0, 2.0)";
+    };
+    const std::string count = "sum[o in obj](int(state.p[o]))", ones = "[sum_{?o : obj} p(?o)]";
+    EXPECT_EQ(chosen("cos" + ones + " > 0"), comparing(count + " <= 1"));
+    EXPECT_EQ(chosen("cos" + ones + " < 0"), comparing(count + " >= 2"));
+    EXPECT_EQ(chosen("sin" + ones + " > 0.5"), comparing(count + " >= 1 && " + count + " <= 2"));
+    EXPECT_EQ(chosen("sin" + ones + " > 0.9"), comparing(count + " == 2"));
+    EXPECT_EQ(chosen("sin" + ones + " < 0.5"), comparing("x-by-count[" + count + "] < 0.5"));
+}
+
+TEST(TabulateCounts, MakesAConstantOfEqualEntries) {
+    EXPECT_EQ(tabulated("round[sin[sum_{?o : obj} p(?o)] * 0.5] + x"), "0.0 + state.x");
 }
 
 TEST(TabulateCounts, KeepsFaults) {
