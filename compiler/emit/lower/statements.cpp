@@ -32,7 +32,7 @@ constexpr std::size_t assignment_width = 3;       // " = "
 // An expression with more calls with lambdas inside is taken to pieces first.
 constexpr std::size_t most_lambda_calls = 64;
 // A small register (rddl::bytes_of_few) has a byte for each.
-constexpr std::int64_t most_objects_of_row = 16;
+constexpr std::int64_t most_objects_in_bytes = 16;
 
 // The table that the only statement of a nest fills.
 ir::BufferId only_target(const ir::Nest& nest) {
@@ -45,7 +45,7 @@ bool are_row(const ir::Program& program, const ir::Nest& nest) {
     const auto draws = [&](ir::NodeId id) {
         return std::holds_alternative<ir::Sample>(program[id].form);
     };
-    return ir::combinations(program, nest.variables) <= most_objects_of_row &&
+    return ir::combinations(program, nest.variables) <= most_objects_in_bytes &&
            std::ranges::none_of(ir::roots_of(*nest.body), [&](ir::NodeId root) {
                return ir::any_node_of(program, root, draws);
            });

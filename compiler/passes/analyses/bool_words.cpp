@@ -9,8 +9,9 @@ namespace rddlc::passes {
 namespace {
 
 constexpr std::int64_t few_objects = 16;
-// Terms that are the same for all objects take longer to get into a register than as masks.
-constexpr std::int64_t fewest_objects_of_row = 5;
+// Terms that are the same for all objects take longer to get into a register than as masks, and
+// rows of more than 16 bytes are loaded in parts.
+constexpr std::int64_t fewest_objects_of_row = 5, most_objects_of_row = 16;
 
 // Depends on which object it is, or on something that a statement of the loop names.
 bool differs(const ir::Program& program, ir::NodeId id, const ir::Nest& nest) {
@@ -61,7 +62,8 @@ bool are_many(const ir::Program& program, const ir::Nest& nest) {
 }
 
 bool fill_a_row(const ir::Program& program, const ir::Nest& nest) {
-    return ir::combinations(program, nest.variables) >= fewest_objects_of_row;
+    const std::int64_t objects = ir::combinations(program, nest.variables);
+    return objects >= fewest_objects_of_row && objects <= most_objects_of_row;
 }
 
 bool is_of_bools(const ir::Program& program, ir::NodeId id, const ir::Nest& nest,

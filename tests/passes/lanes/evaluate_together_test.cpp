@@ -250,7 +250,7 @@ std::string loop_over_triples(const std::string& cpf_of_t, const std::string& ty
 
 TEST(EvaluateTogether, TakesAggregationsOfElementsThatLieBesideEachOther) {
     EXPECT_EQ(loop_over_triples("exists_{?w : obj} [u(?w, ?x, ?y, ?z)]", "bool"),
-              "for x in obj, as words");
+              "for x in obj, several at once");
     EXPECT_EQ(loop_over_triples("sum_{?w : obj} [u(?w, ?x, ?y, ?z)]", "int"),
               "for x in obj, several at once");
     EXPECT_EQ(loop_over_triples("min_{?w : obj} [r(?w, ?x, ?y, ?z) * C(?x, ?y, ?z)]", "real"),
