@@ -464,7 +464,11 @@ std::vector<NodeId> operands_of(const Node& node) {
         },
         [](const Load& load) { return load.indices; },
         [](const Search& search) { return std::vector{search.value}; },
-        [](const Element& element) { return std::vector{element.place}; },
+        [](const Element& element) {
+            std::vector operands = element.indices;
+            operands.push_back(element.place);
+            return operands;
+        },
         [](const Convert& convert) { return std::vector{convert.operand}; },
         [&](const Apply& apply) { return with_place(apply.place, apply.operands); },
         [](const Select& select) {

@@ -59,6 +59,7 @@ class Key {
     void add(const Element& form) {
         add(form.buffer);
         add(form.place);
+        add(form.indices);
     }
     void add(const Load& form) {
         add(form.buffer);
@@ -221,8 +222,8 @@ NodeId Builder::united(BufferId masks, std::vector<NodeId> row, NodeId bits) {
     return intern({Scalar::Int, Union{masks, std::move(row), bits}});
 }
 
-NodeId Builder::element(BufferId buffer, NodeId place) {
-    return intern({Scalar::Bool, Element{buffer, place}});
+NodeId Builder::element(BufferId buffer, NodeId place, std::vector<NodeId> indices) {
+    return intern({Scalar::Bool, Element{buffer, place, std::move(indices)}});
 }
 
 NodeId Builder::local(LocalId id, Scalar type) {
@@ -320,7 +321,7 @@ NodeId Builder::rebuild(const Node& node) {
         [&](const Search& form) { return search(form.table, form.value); },
         [&](const Bits& form) { return bits(form.buffer, form.first, form.indices); },
         [&](const Union& form) { return united(form.masks, form.row, form.bits); },
-        [&](const Element& form) { return element(form.buffer, form.place); },
+        [&](const Element& form) { return element(form.buffer, form.place, form.indices); },
         [&](const Local& form) { return local(form.local, node.type); },
         [&](const Convert& form) { return convert(form.operand, node.type, form.skips_int); },
         [&](const Apply& form) { return apply(form.op, form.operands, form.place); },

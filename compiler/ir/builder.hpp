@@ -36,7 +36,7 @@ class Builder {
     NodeId bits(BufferId buffer, std::int64_t first, std::vector<NodeId> indices = {});
     NodeId united(BufferId masks, std::vector<NodeId> row, NodeId bits);
     // `buffer` is not a Constant.
-    NodeId element(BufferId buffer, NodeId place);
+    NodeId element(BufferId buffer, NodeId place, std::vector<NodeId> indices = {});
     NodeId local(LocalId local, Scalar type);
     NodeId convert(NodeId operand, Scalar type, bool skips_int = false);
     // `place` for exactly the operators that may fault (vocabulary/vocabulary.hpp).

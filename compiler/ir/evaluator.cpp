@@ -426,7 +426,7 @@ std::int64_t Evaluator::united(const Union& form, Frame& frame) const {
 }
 
 bool Evaluator::element_at(const Element& form, Frame& frame) const {
-    const std::byte* const bools = element(form.buffer, {}, frame);
+    const std::byte* const bools = element(form.buffer, form.indices, frame);
     return bools[value<std::int64_t>(form.place, frame)] != std::byte{0};
 }
 

@@ -175,10 +175,12 @@ struct Union {
     NodeId bits;              // Int, 0 beyond the end of the row
     bool operator==(const Union&) const = default;
 };
-// The element of a table of bools that has this place in row-major order.
+// The element of a table of bools, or of the row that leading indices choose, that has this place
+// in row-major order.
 struct Element {
     BufferId buffer;
-    NodeId place;  // Int, in range by construction
+    NodeId place;                      // Int, in range by construction
+    std::vector<NodeId> indices = {};  // the same
     bool operator==(const Element&) const = default;
 };
 struct Local {  // the value of an enclosing Let

@@ -394,7 +394,8 @@ class Printer {
         return fmt::format("union[{}]({})", element(form.masks, form.row), expression(form.bits));
     }
     std::string text(const Element& form, Scalar, Precedence) const {
-        return fmt::format("element({}, {})", element(form.buffer, {}), expression(form.place));
+        return fmt::format("element({}, {})", element(form.buffer, form.indices),
+                           expression(form.place));
     }
     std::string text(const Local& form, Scalar, Precedence) const {
         return fmt::format("%{}", form.local.index);

@@ -68,7 +68,10 @@ void change_operands(Node& node, const Change& change) {
         },
         [&](Load& load) { change_all(load.indices, change); },
         [&](Search& search) { change(search.value); },
-        [&](Element& element) { change(element.place); },
+        [&](Element& element) {
+            change_all(element.indices, change);
+            change(element.place);
+        },
         [&](Convert& convert) { change(convert.operand); },
         [&](Apply& apply) {
             change_all(apply.operands, change);

@@ -282,7 +282,8 @@ class Verifier {
     bool fits(const Element& form, Scalar result) const {
         const Buffer& buffer = program_[form.buffer];
         return result == Scalar::Bool && buffer.scalar == Scalar::Bool &&
-               buffer.storage != Storage::Constant && type(form.place) == Scalar::Int;
+               buffer.storage != Storage::Constant && type(form.place) == Scalar::Int &&
+               are_leading(buffer, form.indices);
     }
     bool fits(const Local&, Scalar) const { return true; }  // compared with its Let
     bool fits(const Convert& form, Scalar to) const {

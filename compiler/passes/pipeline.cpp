@@ -51,6 +51,7 @@
 #include "passes/lanes/choose_evaluation.hpp"
 #include "passes/lanes/draw_for_chosen.hpp"
 #include "passes/lanes/evaluate_together.hpp"
+#include "passes/lanes/find_first_true.hpp"
 #include "passes/lanes/group_angles.hpp"
 #include "passes/lanes/join_cheap_cases.hpp"
 #include "passes/lanes/keep_unchosen.hpp"
@@ -59,12 +60,14 @@
 #include "passes/lanes/narrow_objects.hpp"
 #include "passes/lanes/quantify_together.hpp"
 #include "passes/lanes/read_places.hpp"
+#include "passes/lanes/read_rows.hpp"
 #include "passes/lanes/separate_aggregations.hpp"
 #include "passes/lanes/separate_counts.hpp"
 #include "passes/lanes/skip_unread.hpp"
 #include "passes/lanes/tabulate_clearances.hpp"
 #include "passes/lanes/test_cheap_first.hpp"
 #include "passes/lanes/test_equalities_first.hpp"
+#include "passes/lanes/turn_tables.hpp"
 #include "passes/lanes/unroll_rows.hpp"
 #include "passes/lanes/visit_affected.hpp"
 #include "passes/lanes/visit_chosen.hpp"
@@ -428,6 +431,18 @@ constexpr Pass in_order[] = {
      {"read_places"},
      "it has made tables of places, which may become fewer",
      may_find_more},
+    {"turn_tables",
+     Phase::Lanes,
+     turn_tables,
+     "tables of bools that loops read by columns are stored by columns",
+     {"read_places"},
+     "it reads small tables by their places"},
+    {"read_rows",
+     Phase::Lanes,
+     read_rows,
+     "terms of an exists or forall over bools lie in rows, for several objects at once",
+     {"read_places", "turn_tables"},
+     "the terms of a small exists or forall are no aggregation any more; and a column is a row"},
     {"separate_aggregations",
      Phase::Lanes,
      separate_aggregations,
@@ -459,6 +474,12 @@ constexpr Pass in_order[] = {
      "sines and cosines of a step are computed together",
      {"share_across_definitions", "test_equalities_first"},
      "the values that every step needs, and those that are shared, are known"},
+    {"find_first_true",
+     Phase::Lanes,
+     find_first_true,
+     "the object with the greatest of bools is the place of the lowest bit of a word",
+     {"share_across_definitions"},
+     "share_subexpressions names the word"},
     {"remove_unused_buffers",
      Phase::Sharing,
      remove_unused_buffers,

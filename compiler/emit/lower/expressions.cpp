@@ -143,16 +143,18 @@ Expression Expressions::lower(const ir::Node& node, const ir::Search& search) {
                       {lower(search.value)});
 }
 
-// "rddl::at_places<up_places>(state.up, x)": for several objects; else "rddl::element(state.up,
-// i)".
+// "rddl::at_places<up_places>(state.up[c], x, j)": for several objects, whose places are in row j;
+// else "rddl::element(state.up[c], i)".
 Expression Expressions::lower(const ir::Node&, const ir::Element& element) {
+    Expression table = elements(record(element.buffer), element.indices);
     if (!several_)
         return tested(element.buffer,
-                      tree::call("rddl::element", {record(element.buffer), index(element.place)}));
+                      tree::call("rddl::element", {std::move(table), index(element.place)}));
     const auto& places = std::get<ir::Load>(unit_.program[element.place].form);
+    const auto rows = places.indices.size() - several_->nest.variables.size();
     return tested(element.buffer,
-                  tree::call("rddl::at_places<" + unit_.names.buffers[places.buffer.index] + ">",
-                             {record(element.buffer), word(several_->objects)}));
+                  of_objects("rddl::at_places<" + unit_.names.buffers[places.buffer.index] + ">",
+                             std::move(table), std::span(places.indices).first(rows)));
 }
 
 Expression Expressions::lower(const ir::Node&, const ir::Bits& bits) {
@@ -666,7 +668,7 @@ Expression Expressions::element_of(const ir::Load& load) {
     return tree::call("rddl::at", std::move(arguments));
 }
 
-Expression Expressions::of_objects(const char* function, Expression table,
+Expression Expressions::of_objects(const std::string& function, Expression table,
                                    std::span<const ir::NodeId> indices) {
     tree::Expressions arguments = {std::move(table), word(several_->objects)};
     append(arguments, all_of(indices));

@@ -194,7 +194,7 @@ class Expressions {
     tree::Expression parameter(ir::VariableId variable, ir::NodeId body) const;
     // The range of an aggregation: a count, a row of a table, or rddl::IndexRange(begin, end).
     tree::Expression range(const ir::Reduce& reduce);
-    tree::Expression of_objects(const char* function, tree::Expression table,
+    tree::Expression of_objects(const std::string& function, tree::Expression table,
                                 std::span<const ir::NodeId> indices);
     tree::Expression element_of(const ir::Load& load);
     tree::Expression element_of_row(const ir::Load& load);

@@ -32,10 +32,24 @@ constexpr std::size_t operator_and_brackets = 4;  // of an operand in a chain
 constexpr std::size_t assignment_width = 3;       // " = "
 // An expression with more calls with lambdas inside is taken to pieces first.
 constexpr std::size_t most_lambda_calls = 64;
+// A small register (rddl::bytes_of_few) has a byte for each.
+constexpr std::int64_t most_objects_in_bytes = 16;
 
 // The table that the only statement of a nest fills.
 ir::BufferId only_target(const ir::Nest& nest) {
     return ir::only_statement<ir::Store>(*nest.body)->target;
+}
+
+// Whether few objects of a loop over bools are a row: registers have it, unless the bools are
+// drawn.
+bool are_row(const ir::Program& program, const ir::Nest& nest) {
+    const auto draws = [&](ir::NodeId id) {
+        return std::holds_alternative<ir::Sample>(program[id].form);
+    };
+    return ir::combinations(program, nest.variables) <= most_objects_in_bytes &&
+           std::ranges::none_of(ir::roots_of(*nest.body), [&](ir::NodeId root) {
+               return ir::any_node_of(program, root, draws);
+           });
 }
 
 // The terms of a loop over several objects that finds whether one of them, or all, are true
@@ -248,6 +262,7 @@ void FunctionBody::statement(const ir::Loop& loop) {
 // rddl::for_chosen_objects<tank_count>(context, action.fill, scratch.fills,
 //                                      [&](auto& several, auto t) { ... });
 // rddl::for_many_objects<cell_count>(context, [&](auto& several, auto c) { ... });
+// rddl::for_rows_of_bools<cell_count>(context, [&](auto& several, auto c) { ... });
 // scratch.on_exists = rddl::exists_object<n>(context, [&](auto& several, auto x) { ... });
 void FunctionBody::over_several_objects(const ir::Loop& loop, bool is_from_start) {
     const auto before = expressions_.mark();
@@ -272,6 +287,7 @@ void FunctionBody::over_several_objects(const ir::Loop& loop, bool is_from_start
     tree::Expression lambda{tree::Lambda{std::move(parameters), std::move(body)}};
     const bool is_unrolled = expressions_.looks_at_few_bits() &&
                              ir::combinations(program(), nest.variables) <= rddl::most_few_objects;
+    const bool are_rows = loop.as_words && are_row(program(), nest);
     expressions_.leave_nest();
     expressions_.return_to(before);
     if (loop.affected) {
@@ -305,9 +321,10 @@ void FunctionBody::over_several_objects(const ir::Loop& loop, bool is_from_start
                                      {expressions_.record(target), std::move(result)});
         statements_.push_back({tree::Assign{expressions_.target(target, {}), std::move(result)}});
     } else {
-        const std::string function = loop.as_words ? "rddl::for_many_objects<"
-                                     : is_unrolled ? "rddl::for_few_objects<"
-                                                   : "rddl::for_each_object<";
+        const std::string function = are_rows        ? "rddl::for_rows_of_bools<"
+                                     : loop.as_words ? "rddl::for_many_objects<"
+                                     : is_unrolled   ? "rddl::for_few_objects<"
+                                                     : "rddl::for_each_object<";
         statements_.push_back({tree::call(function + count + ">",
                                           tree::list(tree::word("context"), std::move(lambda)))});
     }

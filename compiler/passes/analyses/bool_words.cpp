@@ -9,6 +9,9 @@ namespace rddlc::passes {
 namespace {
 
 constexpr std::int64_t few_objects = 16;
+// Terms that are the same for all objects take longer to get into a register than as masks, and
+// rows of more than 16 bytes are loaded in parts.
+constexpr std::int64_t fewest_objects_of_row = 5, most_objects_of_row = 16;
 
 // Depends on which object it is, or on something that a statement of the loop names.
 bool differs(const ir::Program& program, ir::NodeId id, const ir::Nest& nest) {
@@ -43,10 +46,24 @@ bool is_constant_probability(const ir::Program& program, ir::NodeId id, const ir
            program[load->buffer].values.all_of(is_probability);
 }
 
+template <class Form>
+bool has(const ir::Program& program, const ir::Block& body) {
+    return std::ranges::any_of(ir::roots_of(body), [&](ir::NodeId root) {
+        return ir::any_node_of(program, root, [&](ir::NodeId id) {
+            return std::holds_alternative<Form>(program[id].form);
+        });
+    });
+}
+
 }  // namespace
 
 bool are_many(const ir::Program& program, const ir::Nest& nest) {
     return ir::combinations(program, nest.variables) > few_objects;
+}
+
+bool fill_a_row(const ir::Program& program, const ir::Nest& nest) {
+    const std::int64_t objects = ir::combinations(program, nest.variables);
+    return objects >= fewest_objects_of_row && objects <= most_objects_of_row;
 }
 
 bool is_of_bools(const ir::Program& program, ir::NodeId id, const ir::Nest& nest,
@@ -78,11 +95,20 @@ bool is_of_bools(const ir::Program& program, ir::NodeId id, const ir::Nest& nest
                    ir::is_place_in(program, nest, sample.place.index) &&
                    is_constant_probability(program, sample.parameters.front(), nest);
         },
+        [&](const ir::Reduce& reduce) {
+            const bool quantifies =
+                reduce.op == Reduction::Exists || reduce.op == Reduction::ForAll;
+            return quantifies && !reduce.bounds && are_of_bools({reduce.body});
+        },
         [](const auto&) { return false; });
 }
 
 bool is_of_words(const ir::Program& program, const ir::Loop& loop) {
     const ir::Nest nest = ir::nest_of(loop);
+    // Draws beside a quantifier are better made for the objects that an action chooses.
+    if (has<ir::Reduce>(program, *nest.body) &&
+        (has<ir::Sample>(program, *nest.body) || !fill_a_row(program, nest)))
+        return false;
     return std::ranges::all_of(*nest.body, [&](const ir::Statement& statement) {
         const auto* let = std::get_if<ir::Let>(&statement.form);
         const auto* store = std::get_if<ir::Store>(&statement.form);

@@ -19,6 +19,9 @@ inline constexpr std::int64_t most_looked_up_bools = 256;
 // Fewer objects fit what a loop over several objects has at once anyway.
 bool are_many(const ir::Program& program, const ir::Nest& nest);
 
+// Whether an exists or forall of each object is worth registers of bools.
+bool fill_a_row(const ir::Program& program, const ir::Nest& nest);
+
 // `is_element` says which nodes will become elements of tables.
 bool is_of_bools(const ir::Program& program, ir::NodeId id, const ir::Nest& nest,
                  const std::function<bool(ir::NodeId)>& is_element = nullptr);

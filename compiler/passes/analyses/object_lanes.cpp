@@ -121,11 +121,17 @@ bool ObjectLanes::can_gather(ir::BufferId buffer, const std::vector<ir::NodeId>&
            });
 }
 
-// Each object has its place in a table.
+// Each object has its place in a table, or in a row of one that is the same for all.
 bool ObjectLanes::is_at_own_place(const ir::Element& element) const {
+    const auto is_same_index = [&](ir::NodeId id) {
+        return is_same(id);
+    };
     const auto* places = std::get_if<ir::Load>(&program_[element.place].form);
     return places && program_[places->buffer].holds_places &&
-           ir::are_variables_of(program_, places->indices, nest_);
+           ir::ends_with(program_, places->indices, nest_) &&
+           std::all_of(places->indices.begin(), places->indices.end() - std::ssize(nest_.variables),
+                       is_same_index) &&
+           std::ranges::all_of(element.indices, is_same_index);
 }
 
 // Axes of a single object before those of the nest change no place.

@@ -100,7 +100,10 @@ class ByteInts {
             [&](const ir::Load& load) {
                 return std::ranges::all_of(load.indices, [&](auto k) { return is_uniform(k); });
             },
-            [&](const ir::Element& element) { return is_uniform(element.place); },
+            [&](const ir::Element& element) {
+                return is_uniform(element.place) &&
+                       std::ranges::all_of(element.indices, [&](auto k) { return is_uniform(k); });
+            },
             [](const ir::Local&) { return true; }, [&](const ir::Convert&) { return all_fit(); },
             [&](const ir::Select&) { return all_fit(); },
             [&](const ir::Apply& apply) { return has_form_for_bytes(apply.op) && all_fit(); },

@@ -66,7 +66,8 @@ class Marking {
             auto* const loop = std::get_if<ir::Loop>(&statement.form);
             if (!loop) continue;
             const bool is_right = is_worth_it(*loop) && is_possible(*loop) &&
-                                  !(is_inside && computes_ints(*loop)) && !waits(*loop);
+                                  !(is_inside && computes_ints(*loop) && !loop->several_at_once) &&
+                                  !waits(*loop);
             const bool was_marked = std::exchange(loop->several_at_once, is_right);
             loop->as_words = loop->several_at_once && is_of_words(program_, *loop);
             marked += loop->several_at_once && !was_marked;

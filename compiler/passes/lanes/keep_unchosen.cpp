@@ -91,8 +91,16 @@ class Keeping {
         const ir::Properties& properties = builder_.properties(whole);
         const bool are_few_draws = properties.random && objects <= most_few_draws &&
                                    program_[value].type != ir::Scalar::Bool;
-        const double at_once = are_few_draws ? 1 : ir::iterations_at_once(loop);
+        double at_once = are_few_draws ? 1 : ir::iterations_at_once(loop);
+        // Words of each term of an aggregation are loads, which take longer than connectives.
+        if (loop.as_words && aggregates(value)) at_once = ir::objects_at_once;
         return std::ceil(static_cast<double>(objects) / at_once) * properties.cost;
+    }
+
+    bool aggregates(ir::NodeId value) const {
+        return ir::any_node_of(program_, value, [&](ir::NodeId id) {
+            return std::holds_alternative<ir::Reduce>(program_[id].form);
+        });
     }
 
     // Remembers the values of the Lets. A fault of one must not disappear with the loop.

@@ -126,7 +126,7 @@ class MoveTables {
                 return false;
             }
         } else if (const auto* element = std::get_if<ir::Element>(&node.form)) {
-            if (element->buffer != few) return false;
+            if (element->buffer != few || !element->indices.empty()) return false;
         } else if (!std::holds_alternative<ir::Constant>(node.form) &&
                    !std::holds_alternative<ir::Index>(node.form) &&
                    !std::holds_alternative<ir::Apply>(node.form) &&

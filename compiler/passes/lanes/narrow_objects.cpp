@@ -189,7 +189,8 @@ class Narrowing {
     // The table of places by which an element is read, at the objects of the loop. Elements of
     // constants keep theirs: what they decide is also known for objects that do not reach them.
     const ir::Load* place_of(const ir::Element& element) const {
-        if (program_[element.buffer].storage == ir::Storage::Constant) return nullptr;
+        if (program_[element.buffer].storage == ir::Storage::Constant || !element.indices.empty())
+            return nullptr;
         const auto* load = std::get_if<ir::Load>(&program_[element.place].form);
         const bool is_own = load && program_[load->buffer].storage == ir::Storage::Constant &&
                             ir::are_variables_of(program_, load->indices, nest_);

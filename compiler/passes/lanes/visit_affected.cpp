@@ -59,7 +59,7 @@ class Affecting {
         if (const auto* load = std::get_if<ir::Load>(&program_[id].form))
             return load->buffer == few && ir::begins_with(program_, load->indices, nest);
         const auto* element = std::get_if<ir::Element>(&program_[id].form);
-        return element && element->buffer == few;
+        return element && element->buffer == few && element->indices.empty();
     }
 
     bool is_false_without(ir::BufferId few, ir::NodeId value, const ir::Nest& nest) {
@@ -88,7 +88,9 @@ class Affecting {
             const auto* element = std::get_if<ir::Element>(&program_[id].form);
             const auto* places =
                 element ? std::get_if<ir::Load>(&program_[element->place].form) : nullptr;
-            if (element && !places) return false;
+            // A table of places for each term of an aggregation is not one for each object.
+            if (element && (!places || !ir::are_variables_of(program_, places->indices, nest)))
+                return false;
             for (std::int64_t object = 0; object < std::ssize(readers); ++object) {
                 const std::int64_t place =
                     places ? std::get<std::int64_t>(program_[places->buffer].values[object])

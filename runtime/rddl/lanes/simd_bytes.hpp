@@ -38,10 +38,14 @@ template <int size>
 template <class V, int n>
 [[gnu::always_inline]] inline V load_bytes(const void* from) {
     V values{};
+#ifdef __AVX2__
+    if constexpr (sizeof(V) == 16) return reinterpret<V>(load_parts(from, n));
+#endif
 #ifdef RDDL_SIMD_AVX512
-    if constexpr (n < register_bytes) return reinterpret<V>(load_many_parts(from, n));
+    if constexpr (sizeof(V) > 16 && n < register_bytes)
+        return reinterpret<V>(load_many_parts(from, n));
 #elif defined(__AVX2__)
-    if constexpr (n < register_bytes) {
+    if constexpr (sizeof(V) > 16 && n < register_bytes) {
         const auto part = [&](int i) __attribute__((always_inline)) {
             const int rest = n - i < 16 ? n - i : 16;
             return rest > 0 ? load_parts(static_cast<const char*>(from) + i, rest)
@@ -57,15 +61,21 @@ template <class V, int n>
 template <class V, int n>
 [[gnu::always_inline]] inline V load_constant_bytes(const void* from) {
 #ifdef RDDL_SIMD_AVX512
-    return reinterpret<V>(_mm512_maskz_loadu_epi8(~std::uint64_t{0} >> (64 - n), from));
+    if constexpr (sizeof(V) == 16)
+        return reinterpret<V>(_mm_maskz_loadu_epi8(~std::uint32_t{0} >> (32 - n), from));
+    else
+        return reinterpret<V>(_mm512_maskz_loadu_epi8(~std::uint64_t{0} >> (64 - n), from));
 #else
     return load_bytes<V, n>(from);
 #endif
 }
 template <int n, class V>
 [[gnu::always_inline]] inline void store_bytes(V values, void* to) {
+#ifdef __AVX2__
+    if constexpr (sizeof(V) == 16) return store_parts(to, reinterpret<__m128i>(values), n);
+#endif
 #ifdef RDDL_SIMD_AVX512
-    if constexpr (n < register_bytes) {
+    if constexpr (sizeof(V) > 16 && n < register_bytes) {
         const auto store = [&]<int i>(std::integral_constant<int, i>)
             __attribute__((always_inline)) {
             if constexpr (i < n)
@@ -81,7 +91,7 @@ template <int n, class V>
         return;
     }
 #elif defined(__AVX2__)
-    if constexpr (n < register_bytes) {
+    if constexpr (sizeof(V) > 16 && n < register_bytes) {
         const auto all = reinterpret<__m256i>(values);
         store_parts(to, _mm256_castsi256_si128(all), n < 16 ? n : 16);
         if constexpr (n > 16)
@@ -96,9 +106,15 @@ template <int n, class V>
 template <class V>
 [[gnu::always_inline]] inline std::uint64_t nonzero_bytes(V bytes) {
 #ifdef RDDL_SIMD_AVX512
-    return _mm512_test_epi8_mask(reinterpret<__m512i>(bytes), reinterpret<__m512i>(bytes));
+    if constexpr (sizeof(V) == 16)
+        return _mm_test_epi8_mask(reinterpret<__m128i>(bytes), reinterpret<__m128i>(bytes));
+    else
+        return _mm512_test_epi8_mask(reinterpret<__m512i>(bytes), reinterpret<__m512i>(bytes));
 #elif defined(__AVX2__)
-    return nonzero_bits(reinterpret<__m256i>(bytes));
+    if constexpr (sizeof(V) == 16)
+        return nonzero_bits(reinterpret<__m128i>(bytes));
+    else
+        return nonzero_bits(reinterpret<__m256i>(bytes));
 #else
     return bits_of_bytes(&bytes, register_bytes);
 #endif
@@ -106,9 +122,15 @@ template <class V>
 template <class V>
 [[gnu::always_inline]] inline V bytes_for_bits(std::uint64_t bits) {
 #ifdef RDDL_SIMD_AVX512
-    return reinterpret<V>(_mm512_maskz_set1_epi8(bits, 1));
+    if constexpr (sizeof(V) == 16)
+        return reinterpret<V>(_mm_maskz_set1_epi8(static_cast<__mmask16>(bits), 1));
+    else
+        return reinterpret<V>(_mm512_maskz_set1_epi8(bits, 1));
 #elif defined(__AVX2__)
-    return reinterpret<V>(bytes_of_many_bits(bits));
+    if constexpr (sizeof(V) == 16)
+        return reinterpret<V>(bytes_of_few_bits(bits));
+    else
+        return reinterpret<V>(bytes_of_many_bits(bits));
 #else
     V bytes;
     store_as_bytes<register_bytes>(bits, &bytes, register_bytes);
@@ -158,6 +180,24 @@ template <std::int64_t size, class V>
 inline constexpr std::int64_t most_chosen_bytes = 0;
 template <std::int64_t size, class V>
 V chosen_bytes(const void* table, V places) = delete;
+#endif
+#ifdef __AVX2__
+// The same of a small register.
+template <std::int64_t size>
+[[gnu::always_inline]] inline __m128i few_chosen_bytes(const void* table, __m128i places) {
+    const char* const bytes = static_cast<const char*>(table);
+    __m128i chosen = _mm_setzero_si128();
+#pragma GCC unroll 16
+    for (int i = 0; i < static_cast<int>(size); i += 16) {
+        const int rest = static_cast<int>(size) - i;
+        const __m128i some = load_parts(bytes + i, rest < 16 ? rest : 16);
+        const __m128i from_first = _mm_sub_epi8(places, _mm_set1_epi8(static_cast<char>(i)));
+        // Adding 0x70 sets the highest bit of places beyond these 16, which then take zero.
+        const __m128i among = size <= 16 ? places : _mm_adds_epu8(from_first, _mm_set1_epi8(0x70));
+        chosen = _mm_or_si128(chosen, _mm_shuffle_epi8(some, among));
+    }
+    return chosen;
+}
 #endif
 
 // A bit for each of 0 < `count` <= 64 bytes of a table of `size` that is not 0: those with these

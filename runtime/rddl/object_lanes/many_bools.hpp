@@ -32,19 +32,24 @@ struct InRegister<Mask<n>> {
     static constexpr Element yes = static_cast<Element>(~Element{0});
 };
 
-template <class T>
+// The bools of few objects of one environment need no more than a small register.
+inline constexpr int bytes_of_few = 16;
+
+template <class T, int bytes>
 struct RegisterOf {
-    static constexpr std::size_t count = simd::register_bytes / sizeof(T);
-    typedef T type __attribute__((vector_size(simd::register_bytes)));
+    static constexpr std::size_t count = bytes / sizeof(T);
+    typedef T type __attribute__((vector_size(bytes)));
 };
 
 // The bools of n objects; elements behind them have any value.
 template <class Bool, int n>
 struct ManyBools {
     using Element = typename InRegister<Bool>::Element;
-    using Vector = typename RegisterOf<Element>::type;
+    static constexpr int part_bytes =
+        std::is_same_v<Bool, bool> && n <= bytes_of_few ? bytes_of_few : simd::register_bytes;
+    using Vector = typename RegisterOf<Element, part_bytes>::type;
     static constexpr Element yes = InRegister<Bool>::yes;
-    static constexpr int part_width = simd::register_bytes / static_cast<int>(sizeof(Element));
+    static constexpr int part_width = part_bytes / static_cast<int>(sizeof(Element));
     static constexpr int part_count = (n + part_width - 1) / part_width;
 
     Vector part[part_count];
@@ -229,8 +234,7 @@ RDDL_INLINE Vector gathered(const Bool* table, const Place* places) {
         return simd::reinterpret<Vector>(gathered_pairs<size, count>(table, places));
     }
 #endif
-    constexpr auto objects =
-        std::make_index_sequence<RegisterOf<typename InRegister<Bool>::Element>::count>();
+    constexpr auto objects = std::make_index_sequence<sizeof(Vector) / sizeof(Bool)>();
     return chosen<Vector>(table, places, count, objects);
 }
 
@@ -366,7 +370,15 @@ RDDL_INLINE ManyBools<Bool, n> choose_many(const Bool* table, const Place* place
     using Vector = typename Many::Vector;
     return Many::of_parts([&]<int p, int count>() RDDL_INLINE_LAMBDA {
         const Place* const first = places + p * Many::part_width;
-        if constexpr (sizeof(Bool) == 1 && sizeof(Place) == 1 && size <= simd::most_chosen_bytes)
+#ifdef __AVX2__
+        if constexpr (sizeof(Vector) == 16 && sizeof(Bool) == 1 && sizeof(Place) == 1)
+            return simd::reinterpret<Vector>(simd::few_chosen_bytes<size>(
+                table,
+                simd::reinterpret<__m128i>(simd::load_constant_bytes<Vector, count>(first))));
+        else
+#endif
+            if constexpr (sizeof(Bool) == 1 && sizeof(Place) == 1 &&
+                          size <= simd::most_chosen_bytes)
             return simd::chosen_bytes<size>(table, simd::load_constant_bytes<Vector, count>(first));
         else
             return many_bools::chosen<Vector>(table, first, count,

@@ -59,6 +59,24 @@ struct Context<BoolsOfMany<n, L>> {
     ManyBools<typename L::Bool, n> active;  // the objects, and environments, whose values are used
 };
 
+// ---------------------------------------------------------------------------- aggregations
+
+// Each object aggregates by itself, as in objects.hpp. The terms are registers.
+template <int n, class L, class Body>
+RDDL_INLINE auto exists(const Context<BoolsOfMany<n, L>>&, IndexRange range, Body&& body) {
+    using Many = ManyBools<typename L::Bool, n>;
+    Many any(false);
+    for (Index i = range.begin; i < range.end; ++i) any = any || Many(body(i));
+    return any;
+}
+template <int n, class L, class Body>
+RDDL_INLINE auto for_all(const Context<BoolsOfMany<n, L>>&, IndexRange range, Body&& body) {
+    using Many = ManyBools<typename L::Bool, n>;
+    Many all(true);
+    for (Index i = range.begin; i < range.end; ++i) all = all && Many(body(i));
+    return all;
+}
+
 // --------------------------------------------------------------------------------- elements
 
 template <class Table, int n, class L>
@@ -72,6 +90,15 @@ RDDL_INLINE auto at(const Table& table, const ManyObjects<n, L>& objects) {
     else
         return load_many<n>(first);
 }
+// By a row of places.
+template <const auto& places, class Table, int n, class L, class... Row>
+requires(sizeof...(Row) > 0)  //
+    RDDL_INLINE
+    auto at_places(const Table& table, const ManyObjects<n, L>& objects, const Row&... row) {
+    return choose_many<n, detail::Nested<Table>::count>(
+        &detail::first_part<0>(table),
+        &detail::first_part<0>(detail::row_of(places, row...)) + objects.first);
+}
 template <const auto& places, class Table, int n, class L>
 RDDL_INLINE auto at_places(const Table& table, const ManyObjects<n, L>& objects) {
     using Many = ManyBools<typename L::Bool, n>;
@@ -79,7 +106,7 @@ RDDL_INLINE auto at_places(const Table& table, const ManyObjects<n, L>& objects)
     const auto* const first = &detail::first_part<0>(places) + objects.first;
     constexpr auto place_count = detail::Nested<std::remove_cvref_t<decltype(places)>>::count;
     constexpr bool are_few = place_count <= most_places_in_lines;
-    if constexpr (L::width == 1 && chooses_by_parts && place_count == n)
+    if constexpr (L::width == 1 && chooses_by_parts && place_count == n && n > bytes_of_few)
         return choose_many_by_parts<places, detail::Nested<Table>::count, n>(elements);
     else if constexpr (L::width == 1 || !are_few)
         return choose_many<n, detail::Nested<Table>::count>(elements, first);
@@ -306,6 +333,17 @@ RDDL_INLINE void for_many_objects(Context<L>& context, Body&& body) {
         for (Index first = 0; first < count - rest; first += at_once)
             detail::for_these_objects<at_once>(context, first, body);
         if constexpr (rest > 0) detail::for_these_objects<rest>(context, count - rest, body);
+    }
+}
+
+// The same of bodies that do not draw: registers have the bools of few objects too.
+template <Index count, class L, class Body>
+RDDL_INLINE void for_rows_of_bools(Context<L>& context, Body&& body) {
+    if constexpr (L::width == 1 && count <= bytes_of_few) {
+        Context<BoolsOfMany<count, L>> many{context, true};
+        body(many, ManyObjects<count, L>{0});
+    } else {
+        for_many_objects<count>(context, body);
     }
 }
 

@@ -242,17 +242,20 @@ RDDL_INLINE auto at_own(const Table& table, const SomeObjects<n>& objects,
                                                         select(objects.mask(), places, Int{0}));
 }
 
-// The elements of a table of bools at places that each object has in another table.
-template <const auto& places, class Table>
-RDDL_INLINE const auto& at_places(const Table& table, OneObject object) {
-    return (&detail::first_part<0>(table))[(&detail::first_part<0>(places))[object.place]];
+// The elements of a table of bools at places that each object has in another table, or in a row of
+// it.
+template <const auto& places, class Table, class... Row>
+RDDL_INLINE const auto& at_places(const Table& table, OneObject object, const Row&... row) {
+    const auto& own = detail::row_of(places, row...);
+    return (&detail::first_part<0>(table))[(&detail::first_part<0>(own))[object.place]];
 }
-template <const auto& places, class Table, int n>
-RDDL_INLINE Mask<n> at_places(const Table& table, const SomeObjects<n>& objects) {
+template <const auto& places, class Table, int n, class... Row>
+RDDL_INLINE Mask<n> at_places(const Table& table, const SomeObjects<n>& objects,
+                              const Row&... row) {
     constexpr std::int64_t size = detail::Nested<Table>::count;
+    const auto& own = detail::row_of(places, row...);
     return Mask<n>::of_bits(simd::bits_of_chosen_bytes<size>(
-        &detail::first_part<0>(table), &detail::first_part<0>(places) + objects.first,
-        objects.count));
+        &detail::first_part<0>(table), &detail::first_part<0>(own) + objects.first, objects.count));
 }
 
 // The elements in which values are stored.

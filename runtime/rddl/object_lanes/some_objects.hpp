@@ -6,6 +6,7 @@
 #include <rddl/lanes/simd_moves.hpp>
 #include <rddl/values/pack_ops.hpp>
 
+#include <cstddef>
 #include <cstdint>
 #include <type_traits>
 
@@ -27,6 +28,16 @@ struct SomeObjects {
 }  // namespace RDDL_SIMD_LEVEL
 
 namespace detail {
+
+// The part of nested arrays that leading indices choose.
+template <class T>
+constexpr const T& row_of(const T& table) {
+    return table;
+}
+template <class T, class... Rest>
+constexpr const auto& row_of(const T& table, Index first, const Rest&... rest) {
+    return row_of(table[static_cast<std::size_t>(first)], rest...);
+}
 
 template <int n>
 RDDL_INLINE Mask<n> load_some(const bool* from, const SomeObjects<n>& objects) {

@@ -120,6 +120,7 @@ TEST(ManyObjects, OfOneEnvironment) {
     expect_the_same<Scalar, 64, 128, std::uint8_t>();
     expect_the_same<Scalar, 100, 192, std::uint8_t>();
     expect_the_same<Scalar, 257, 256, std::uint8_t>();
+    expect_the_same<Scalar, 261, 64, std::uint8_t>();
     expect_the_same<Scalar, 300, 300, std::uint16_t>();
     expect_the_same<ScalarOf<float>, 72, 100, std::uint8_t>();
 }
@@ -129,6 +130,60 @@ TEST(ManyObjects, OfPacks) {
     expect_the_same<Pack<64>, 3, 33, std::uint8_t>();
     expect_the_same<Pack<64>, 16, 300, std::uint16_t>();
     expect_the_same<Pack<64, float>, 21, 21, std::uint8_t>();
+}
+
+// Aggregations of rows that others choose, by rows of places.
+template <class L, std::size_t n, std::size_t size>
+void expect_the_same_rows() {
+    constexpr std::size_t terms = 3;
+    [[maybe_unused]] static constexpr auto places = [] {
+        std::array<std::array<std::uint8_t, n>, terms> rows{};
+        for (std::size_t j = 0; j < terms; ++j)
+            for (std::size_t i = 0; i < n; ++i)
+                rows[j][i] = static_cast<std::uint8_t>((7 * i + 3 * j) % size);
+        return rows;
+    }();
+    std::array<std::array<typename L::Bool, size>, terms> from;
+    std::array<typename L::Bool, n + 1> expected{}, result{};
+    std::array<typename L::Bool, terms> wanted;
+    for (std::size_t j = 0; j < terms; ++j) {
+        wanted[j] = bool_at<L>(j);
+        for (std::size_t i = 0; i < size; ++i) from[j][i] = bool_at<L>(3 * i + j);
+    }
+    const auto body = [&](auto& to) {
+        return [&](auto& several, auto x) {
+            const auto any = exists(several, Index{terms}, [&](Index j) {
+                return wanted[static_cast<std::size_t>(j)] &&
+                       at_places<places>(from[static_cast<std::size_t>(j)], x, j);
+            });
+            const auto all = for_all(several, Index{terms}, [&](Index j) {
+                return at(constants<n>, x) ||
+                       !at_places<places>(from[static_cast<std::size_t>(terms - 1 - j)], x, j);
+            });
+            elements(to, x) = any != all;
+        };
+    };
+    Context<L> context = context_of_lanes<L>();
+    for_each_object<n>(context, body(expected));
+    for_rows_of_bools<n>(context, body(result));
+    for (std::size_t i = 0; i <= n; ++i)
+        for (int lane = 0; lane < lanes<L>; ++lane)
+            EXPECT_EQ(get_lane(expected[i], lane), get_lane(result[i], lane))
+                << n << " objects, object " << i << ", lane " << lane;
+}
+TEST(ManyObjects, AggregateRows) {
+    expect_the_same_rows<Scalar, 5, 6>();
+    expect_the_same_rows<Scalar, 6, 17>();
+    expect_the_same_rows<Scalar, 8, 8>();
+    expect_the_same_rows<Scalar, 13, 40>();
+    expect_the_same_rows<Scalar, 16, 16>();
+    expect_the_same_rows<Scalar, 16, 64>();
+    expect_the_same_rows<Scalar, 17, 20>();
+    expect_the_same_rows<Scalar, 70, 64>();
+    expect_the_same_rows<ScalarOf<float>, 7, 9>();
+    expect_the_same_rows<Pack<16>, 40, 50>();
+    expect_the_same_rows<Pack<64>, 6, 6>();
+    expect_the_same_rows<Pack<64>, 11, 20>();
 }
 
 // Probabilities of which some are 0 or 1: those of a few objects only are not, or of many.
