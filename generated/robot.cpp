@@ -189,7 +189,7 @@ struct Simulator {
     // range-to(?b)  (domain.rddl:79)
     template <class L>
     static void set_range_to(Scratch<L>& scratch, rddl::Context<L>& context) {
-        rddl::for_each_object<beacon_count>(context, [&](auto&, auto b) {
+        rddl::for_few_reals<beacon_count>(context, [&](auto&, auto b) {
             const auto term = scratch.reached_x - rddl::at(BEACON_X_, b);
             rddl::elements(scratch.range_to, b) =
                 rddl::hypot(term, scratch.reached_y - rddl::at(BEACON_Y_, b));

@@ -78,6 +78,31 @@ bool stores_start(const ir::Program& program, const ir::Statement& first,
            ir::constant<bool>(program, start->value) == (found->op == Operator::And);
 }
 
+// Bools and ints of a step gain nothing in half a register, and neither do draws but normals.
+bool is_of_reals(const ir::Program& program, ir::NodeId root) {
+    return !ir::any_node_of(program, root, [&](ir::NodeId id) {
+        const ir::Node& node = program[id];
+        const auto buffer = ir::buffer_read_by(node);
+        if (buffer && program[*buffer].storage != ir::Storage::Constant)
+            return program[*buffer].scalar != ir::Scalar::Real;
+        const auto* sample = std::get_if<ir::Sample>(&node.form);
+        return (sample && sample->distribution != Distribution::Normal) ||
+               std::holds_alternative<ir::DiscreteOver>(node.form) ||
+               std::holds_alternative<ir::Interval>(node.form);
+    });
+}
+// Whether the loop fills tables of reals alone, for so few objects that half a register has them.
+bool fills_few_reals(const ir::Program& program, const ir::Nest& nest) {
+    if (ir::combinations(program, nest.variables) > rddl::most_few_reals) return false;
+    const auto is_of_ints = [&](const ir::Statement& statement) {
+        const auto* store = std::get_if<ir::Store>(&statement.form);
+        return store && program[store->target].scalar != ir::Scalar::Real;
+    };
+    return std::ranges::none_of(*nest.body, is_of_ints) &&
+           std::ranges::all_of(ir::values_of(*nest.body),
+                               [&](ir::NodeId value) { return is_of_reals(program, value); });
+}
+
 bool is_binder(const ir::Node& node) {
     return ir::bound_variable(node).has_value();
 }
@@ -255,6 +280,7 @@ void FunctionBody::statement(const ir::Loop& loop) {
 
 // rddl::for_each_object<computer_count>(context, [&](auto& several, auto x) { ... });
 // rddl::for_few_objects<rod_count>(context, [&](auto& several, auto x) { ... });
+// rddl::for_few_reals<joint_count>(context, [&](auto& several, auto x) { ... });
 // rddl::for_affected_objects<cell_count>(context, state.at, at_affects_rows_, at_affects_, next.at,
 //                                        [&](auto& several, auto c) { ... });
 // rddl::for_chosen_objects<course_count>(context, action.take, state.passed, next.passed,
@@ -321,10 +347,11 @@ void FunctionBody::over_several_objects(const ir::Loop& loop, bool is_from_start
                                      {expressions_.record(target), std::move(result)});
         statements_.push_back({tree::Assign{expressions_.target(target, {}), std::move(result)}});
     } else {
-        const std::string function = are_rows        ? "rddl::for_rows_of_bools<"
-                                     : loop.as_words ? "rddl::for_many_objects<"
-                                     : is_unrolled   ? "rddl::for_few_objects<"
-                                                     : "rddl::for_each_object<";
+        const std::string function = are_rows                           ? "rddl::for_rows_of_bools<"
+                                     : loop.as_words                    ? "rddl::for_many_objects<"
+                                     : is_unrolled                      ? "rddl::for_few_objects<"
+                                     : fills_few_reals(program(), nest) ? "rddl::for_few_reals<"
+                                                                        : "rddl::for_each_object<";
         statements_.push_back({tree::call(function + count + ">",
                                           tree::list(tree::word("context"), std::move(lambda)))});
     }

@@ -10,6 +10,7 @@
 #include <rddl/lanes/simd.hpp>
 #include <rddl/lanes/simd_byte_ints.hpp>
 #include <rddl/lanes/simd_floats.hpp>
+#include <rddl/lanes/simd_halves.hpp>
 #include <rddl/lanes/simd_moves.hpp>
 
 #include <array>
@@ -29,10 +30,11 @@ namespace rddl::inline RDDL_SIMD_LEVEL {
 template <int n>
 struct Mask {
     using Bits = typename simd::BitsOf<n>::type;
+    static constexpr auto everywhere = static_cast<Bits>(~std::uint64_t{0} >> (64 - n));
     Bits bits;
 
     Mask() = default;
-    RDDL_INLINE Mask(bool everywhere) : bits(everywhere ? static_cast<Bits>(~Bits{0}) : Bits{0}) {}
+    RDDL_INLINE Mask(bool value) : bits(value ? everywhere : Bits{0}) {}
     template <class T>
     requires std::is_arithmetic_v<T> Mask(T)
     = delete;  // numbers are not bools
@@ -53,7 +55,9 @@ struct Mask {
     friend RDDL_INLINE Mask operator||(Mask a, Mask b) { return of_bits(a.bits | b.bits); }
     friend RDDL_INLINE Mask operator&(Mask a, Mask b) { return a && b; }
     friend RDDL_INLINE Mask operator|(Mask a, Mask b) { return a || b; }
-    friend RDDL_INLINE Mask operator!(Mask a) { return of_bits(~std::uint64_t{a.bits}); }
+    friend RDDL_INLINE Mask operator!(Mask a) {
+        return of_bits(~std::uint64_t{a.bits} & everywhere);
+    }
     friend RDDL_INLINE Mask operator==(Mask a, Mask b) { return !(a != b); }
     friend RDDL_INLINE Mask operator!=(Mask a, Mask b) { return of_bits(a.bits ^ b.bits); }
 };
@@ -238,8 +242,11 @@ struct Lanes {
 template <class Part, class T, int n>
 RDDL_INLINE Part part_of(const Lanes<T, n>& all, std::size_t i) {
     Part part;
-    for (std::size_t p = 0; p < Part::part_count; ++p)
-        part.part[p] = all.part[i * Part::part_count + p];
+    if constexpr (Part::is_half && !Lanes<T, n>::is_half)
+        part.part[0] = simd::half_of(all.part[i / 2], static_cast<int>(i % 2));
+    else
+        for (std::size_t p = 0; p < Part::part_count; ++p)
+            part.part[p] = all.part[i * Part::part_count + p];
     return part;
 }
 template <class T, int n, int some>

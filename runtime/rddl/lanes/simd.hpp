@@ -102,9 +102,13 @@ using MaskBits = std::uint32_t;
 template <class T>
 inline constexpr MaskBits all_lanes_of = (1u << lanes_of<T>)-1;
 
-// An unsigned number of n bits: the mask of n lanes in several registers.
+// An unsigned number of n bits, or of 8: the mask of n lanes in several registers.
 template <int n>
 struct BitsOf;
+template <>
+struct BitsOf<4> {
+    using type = std::uint8_t;
+};
 template <>
 struct BitsOf<8> {
     using type = std::uint8_t;

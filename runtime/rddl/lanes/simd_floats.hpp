@@ -219,7 +219,7 @@ template <std::int64_t count>
     for (int i = 0; i < lanes && i < count; ++i) to[i] = values[i];
 #endif
 }
-// See load_in_pairs and store_one_by_one of doubles (simd_moves.hpp).
+// See load_in_pairs and store_one_by_one of doubles (simd_halves.hpp).
 [[gnu::always_inline]] inline HalfFloats load_one_by_one(const float* from, int count) {
 #ifdef RDDL_SIMD_AVX512
     const __m128 first = _mm_unpacklo_ps(_mm_load_ss(from), _mm_load_ss(from + 1));

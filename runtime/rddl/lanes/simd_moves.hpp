@@ -26,21 +26,8 @@ template <class T>
     return result;
 #endif
 }
-// The same of at most so many values, which may have been stored one by one just now: where a load
-// of all of them waits until memory has them, loads of pairs take them from the stores.
+// At most so many values are loaded one by one, or in pairs (simd_halves.hpp).
 inline constexpr int most_in_pairs = 4;
-[[gnu::always_inline]] inline Reals load_in_pairs(const double* from, int count) {
-#ifdef RDDL_SIMD_AVX512
-    const __m128d first = _mm_loadh_pd(_mm_load_sd(from), from + 1);
-    __m128d second{};
-    if (count > 2) second = _mm_load_sd(from + 2);
-    if (count > 3) second = _mm_loadh_pd(second, from + 3);
-    const __m256d both = _mm256_insertf128_pd(_mm256_zextpd128_pd256(first), second, 1);
-    return reinterpret<Reals>(_mm512_maskz_insertf64x4(0xFF, __m512d{}, both, 0));
-#else
-    return load_some(from, count);
-#endif
-}
 template <class T>
 [[gnu::always_inline]] inline void store_some(T* to, Vector<T> values, int count) {
 #ifdef RDDL_SIMD_AVX512
@@ -52,20 +39,6 @@ template <class T>
         _mm512_mask_storeu_ps(to, static_cast<__mmask16>(some), reinterpret<Floats>(values));
 #else
     for (int i = 0; i < lanes_of<T> && i < count; ++i) to[i] = values[i];
-#endif
-}
-// Stores them one by one, so that loads take them from the stores: a load of what a masked store
-// has just written waits.
-[[gnu::always_inline]] inline void store_one_by_one(double* to, Reals values, int count) {
-#ifdef RDDL_SIMD_AVX512
-    const __m256d both = _mm512_maskz_extractf64x4_pd(0xF, values, 0);
-    const __m128d first = _mm256_castpd256_pd128(both), second = _mm256_extractf128_pd(both, 1);
-    _mm_store_sd(to, first);
-    if (count > 1) _mm_storeh_pd(to + 1, first);
-    if (count > 2) _mm_store_sd(to + 2, second);
-    if (count > 3) _mm_storeh_pd(to + 3, second);
-#else
-    store_some(to, values, count);
 #endif
 }
 

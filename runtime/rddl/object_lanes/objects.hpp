@@ -326,13 +326,12 @@ RDDL_INLINE void for_some(Context<ScalarOf<R>>& context, const StepDraws& draws,
 template <int n, Index count, class R, class Body>
 RDDL_ALWAYS_INLINE void for_each_of_several(Context<ScalarOf<R>>& context, Body&& body) {
     constexpr Index full = count / n * n;
-    constexpr int rest = count - full;
+    constexpr int rest = count - full, most = std::min(n, objects_of_loop<rest>);
     const StepDraws draws(context);
     NormalsOfLoop normals;
     for (Index first = 0; first < full; first += n)
         for_some(context, draws, normals, SomeObjects<n>{first, n}, body);
-    if constexpr (rest > 0)
-        for_some(context, draws, normals, SomeObjects<objects_of_loop<rest>>{full, rest}, body);
+    if constexpr (rest > 0) for_some(context, draws, normals, SomeObjects<most>{full, rest}, body);
 }
 
 }  // namespace detail
@@ -345,6 +344,15 @@ RDDL_INLINE void for_each_object(Context<Pack<n, R>>& context, Body&& body) {
 template <Index count, class R, class Body>
 RDDL_INLINE void for_each_object(Context<ScalarOf<R>>& context, Body&& body) {
     detail::for_each_of_several<objects_of_loop<count>, count>(context, body);
+}
+
+// The same for few objects whose values are reals: half a register of AVX-512 has four doubles.
+template <Index count, class L, class Body>
+RDDL_INLINE void for_few_reals(Context<L>& context, Body&& body) {
+    if constexpr (std::is_same_v<L, Scalar>)
+        detail::for_each_of_several<int{most_few_reals}, count>(context, body);
+    else
+        for_each_object<count>(context, body);
 }
 
 // The same for few objects whose bodies look at few bits (rddl/values/few_bits.hpp): in packs, the

@@ -47,22 +47,20 @@ template <int n, class T>
 RDDL_INLINE Lanes<T, n> load_some(const T* from, const SomeObjects<n>& objects) {
     if (objects.count == n) return Lanes<T, n>::load(from);
     Lanes<T, n> values;
-    if constexpr (std::is_same_v<T, double> && values.part_count == 1) {
-        const int count = objects.count;
-        if (__builtin_constant_p(count) && count > 1 && count <= simd::most_in_pairs) {
-            values.part[0] = simd::load_in_pairs(from, count);
-            return values;
-        }
-    }
+    const int count = objects.count;
     if constexpr (Lanes<T, n>::is_half) {
-        const int count = objects.count;
         values.part[0] = __builtin_constant_p(count) && count > 1 && count <= simd::most_in_pairs
                              ? simd::load_one_by_one(from, count)
                              : simd::load_some_of_half(from, count);
         return values;
+    } else if constexpr (std::is_same_v<T, double> && values.part_count == 1) {
+        values.part[0] = __builtin_constant_p(count) && count > 1 && count <= simd::most_in_pairs
+                             ? simd::load_in_pairs(from, count)
+                             : simd::load_some(from, count);
+        return values;
     } else {
         for (int p = 0, first = 0; p < values.part_count; ++p, first += values.part_width)
-            values.part[p] = simd::load_some(from + first, objects.count - first);
+            values.part[p] = simd::load_some(from + first, count - first);
         return values;
     }
 }

@@ -121,9 +121,10 @@ RDDL_INLINE auto place_in_lane(const Numbers& numbers, std::uint32_t site, Index
     return place_in_lane<row, lane>(numbers, site, index, site);
 }
 
-template <class R>
-RDDL_INLINE Lanes<R, 8> uniform_at(Context<Objects<8, R>>&, const PlaceOfRow& place) {
-    return unit_real<R>(interleaved(place.even, place.odd));
+template <int n, class R>
+requires(n <= 8)  //
+    RDDL_INLINE Lanes<R, n> uniform_at(Context<Objects<n, R>>&, const PlaceOfRow& place) {
+    return part_of<Lanes<R, n>>(unit_real<R>(interleaved(place.even, place.odd)), 0);
 }
 template <class R>
 RDDL_INLINE R uniform_at(Context<ScalarOf<R>>&, const PlaceOfRow& place) {

@@ -230,7 +230,7 @@ constexpr std::int64_t count_ones(std::int64_t a) {
 template <int n>
 RDDL_INLINE Lanes<std::int64_t, n> count_ones(const Lanes<std::int64_t, n>& a) {
     return Lanes<std::int64_t, n>::each(
-        [](simd::Ints bits) RDDL_INLINE_LAMBDA { return simd::count_ones(bits); }, a);
+        [](auto bits) RDDL_INLINE_LAMBDA { return simd::count_ones(bits); }, a);
 }
 
 }  // namespace rddl

@@ -6,5 +6,7 @@
 namespace rddl {
 
 inline constexpr std::int64_t most_few_objects = 16;
+// Half a register of AVX-512 holds the doubles of so many objects.
+inline constexpr std::int64_t most_few_reals = 4;
 
 }  // namespace rddl

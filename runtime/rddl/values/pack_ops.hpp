@@ -664,22 +664,28 @@ RDDL_INLINE Mask<n> lowest_bits(const Lanes<std::int64_t, n>& a) {
     return (a & Lanes<std::int64_t, n>(1)) != Lanes<std::int64_t, n>(0);
 }
 
+// The bits from these places on.
+template <int n>
+RDDL_INLINE Lanes<std::int64_t, n> shifted(std::uint64_t bits,
+                                           const Lanes<std::int64_t, n>& places) {
+    return Lanes<std::int64_t, n>::each(
+        [](auto all, auto place)
+            RDDL_INLINE_LAMBDA { return (decltype(place))(all >> (decltype(all))place); },
+        Lanes<std::uint64_t, n>(bits), places);
+}
+
 // The elements that each lane chooses from a table of `count`: its own where the elements are
 // packs.
 template <std::int64_t count, int n>
 Mask<n> gather(const bool* elements, const Lanes<std::int64_t, n>& indices) {
-    using Ints = simd::Ints;
-    using Words = simd::Words;
     if constexpr (count <= 64) {
         const std::uint64_t bits = simd::bits_of_bytes(elements, count);
-        return lowest_bits(Lanes<std::int64_t, n>::each(
-            [bits](Ints place)
-                RDDL_INLINE_LAMBDA { return (Ints)((Words{} + bits) >> (Words)place); },
-            indices));
+        return lowest_bits(shifted(bits, indices));
     } else {
         return lowest_bits(Lanes<std::int64_t, n>::each(
-            [elements](Ints place)
-                RDDL_INLINE_LAMBDA { return (Ints)simd::gather_bytes<count>(elements, place); },
+            [elements](auto place) RDDL_INLINE_LAMBDA {
+                return (decltype(place))simd::gather_bytes<count>(elements, place);
+            },
             indices));
     }
 }
@@ -691,18 +697,14 @@ RDDL_INLINE Mask<n> gather_from_column(const bool* elements,
     std::uint64_t bits = 0;
     for (std::int64_t row = 0; row < rows; ++row)
         bits |= std::uint64_t{elements[row * distance]} << row;
-    return lowest_bits(Lanes<std::int64_t, n>::each(
-        [bits](simd::Ints place) RDDL_INLINE_LAMBDA {
-            return (simd::Ints)((simd::Words{} + bits) >> (simd::Words)place);
-        },
-        indices));
+    return lowest_bits(shifted(bits, indices));
 }
 template <std::int64_t count, int n>
 RDDL_INLINE auto gather(const std::int64_t* elements, const Lanes<std::int64_t, n>& indices) {
     const auto* const reals = reinterpret_cast<const double*>(elements);
     return Lanes<std::int64_t, n>::each(
         [reals](auto x) RDDL_INLINE_LAMBDA {
-            return simd::reinterpret<simd::Ints>(simd::look_up<count>(reals, x));
+            return simd::reinterpret<decltype(x)>(simd::look_up<count>(reals, x));
         },
         indices);
 }

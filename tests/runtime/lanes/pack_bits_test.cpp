@@ -76,5 +76,51 @@ TEST(PackBits, SpreadBitsOverBools) {
     expect_spread_bits<64, 64>();
 }
 
+template <int width>
+void expect_lanes_of_masks() {
+    using Bools = typename Pack<width>::Bool;
+    constexpr std::uint64_t everywhere = ~std::uint64_t{0} >> (64 - width);
+    for (const std::uint64_t some : {0x0000u, 0x0001u, 0x8008u, 0xA5A5u, 0xFFFFu}) {
+        const std::uint64_t pattern = some & everywhere;
+        const Bools mask = Bools::of_bits(pattern);
+        const typename Pack<width>::Int numbers = to_int(mask);
+        std::uint64_t visited = 0;
+        for_each_lane(mask, [&](int lane) { visited |= std::uint64_t{1} << lane; });
+        EXPECT_EQ(visited, pattern);
+        EXPECT_EQ(any(mask), pattern != 0);
+        EXPECT_EQ(all(mask), pattern == everywhere);
+        EXPECT_EQ((!mask).bits, ~pattern & everywhere);
+        EXPECT_EQ((!mask || mask).bits, Bools(true).bits);
+        for (int lane = 0; lane < width; ++lane)
+            EXPECT_EQ(numbers[lane], static_cast<std::int64_t>(pattern >> lane & 1));
+    }
+}
+TEST(PackBits, CountLanesOfMasks) {
+    expect_lanes_of_masks<4>();
+    expect_lanes_of_masks<16>();
+}
+
+template <int width>
+void expect_some_lanes_together() {
+    using Bools = typename Pack<width>::Bool;
+    using Reals = typename Pack<width>::Real;
+    for (const std::uint64_t pattern : {0x0000u, 0x8001u, 0x0100u, 0xA5A5u, 0xFF00u, 0x00FFu}) {
+        const Bools mask = Bools::of_bits(pattern) && Bools(true);
+        Reals values, target{-1.0};
+        for (int lane = 0; lane < width; ++lane) values.set(lane, 100 + lane);
+        const Lanes<double, 8> some = compress(mask, values, 7.0);
+        expand(mask, some, target);
+        int next = 0;
+        for_each_lane(mask, [&](int lane) { EXPECT_EQ(some[next++], 100 + lane); });
+        while (next < 8) EXPECT_EQ(some[next++], 7.0);
+        for (int lane = 0; lane < width; ++lane)
+            EXPECT_EQ(target[lane], mask[lane] ? 100 + lane : -1.0);
+    }
+}
+TEST(PackBits, BringSomeLanesTogetherAndBack) {
+    expect_some_lanes_together<4>();
+    expect_some_lanes_together<16>();
+}
+
 }  // namespace
 }  // namespace rddl

@@ -57,18 +57,25 @@ std::vector<std::int64_t> ints(unsigned seed) {
     return result;
 }
 
-template <class Function, class First, class... Others>
-void expect_bits_of_scalars(const char* name, Function function, const std::vector<First>& first,
-                            const std::vector<Others>&... others) {
-    for (std::size_t i = 0; i + width <= first.size(); i += width) {
-        const auto found = function(LanesOf<First, width>::load(&first[i]),
-                                    LanesOf<Others, width>::load(&others[i])...);
-        for (int lane = 0; lane < width; ++lane) {
+template <int n, class Function, class First, class... Others>
+void expect_bits_in_lanes(const char* name, Function function, const std::vector<First>& first,
+                          const std::vector<Others>&... others) {
+    for (std::size_t i = 0; i + n <= first.size(); i += n) {
+        const auto found =
+            function(LanesOf<First, n>::load(&first[i]), LanesOf<Others, n>::load(&others[i])...);
+        for (int lane = 0; lane < n; ++lane) {
             const std::size_t at = i + static_cast<std::size_t>(lane);
             ASSERT_EQ(bits(found[lane]), bits(function(first[at], others[at]...)))
-                << name << " of " << first[at] << " on " << simd::level;
+                << name << " of " << first[at] << " in " << n << " lanes on " << simd::level;
         }
     }
+}
+// Four lanes are half a register of AVX-512.
+template <class Function, class... Operands>
+void expect_bits_of_scalars(const char* name, Function function,
+                            const std::vector<Operands>&... operands) {
+    expect_bits_in_lanes<width>(name, function, operands...);
+    expect_bits_in_lanes<4>(name, function, operands...);
 }
 
 #define EXPECT_BITS_OF_SCALARS(expression, ...) \
@@ -157,8 +164,8 @@ TEST(Packs, FindNormalQuantilesAsScalarsDo) {
 // Packs of floats whose quantiles are computed in turns: in the middle, in the tails that uniform
 // numbers reach, and beyond.
 TEST(Packs, FindNormalQuantilesOfFloatsInTurns) {
-    const std::vector<float> some = {0.5f,  0.3f,           0.9f,      0.01f,
-                                     1e-5f, 1.0f - 0x1p-24f, 0x1p-24f, 1e-9f};
+    const std::vector<float> some = {0.5f,     0.3f, 0.9f, 0.01f, 1e-5f, 1.0f - 0x1p-24f,
+                                     0x1p-24f, 1e-9f};
     std::mt19937_64 random(13);
     constexpr std::uint32_t most = 7;
     for (int repetition = 0; repetition < 50; ++repetition)
@@ -280,35 +287,6 @@ TEST(Packs, CompareAsScalarsDo) {
     expect_comparisons_of_scalars(ints(9), ints(9));
 }
 
-TEST(Packs, CountLanesOfMasks) {
-    for (const std::uint64_t pattern : {0x0000u, 0x0001u, 0x8000u, 0xA5A5u, 0xFFFFu}) {
-        const Bools mask = Bools::of_bits(pattern);
-        const Ints numbers = to_int(mask);
-        std::uint64_t visited = 0;
-        for_each_lane(mask, [&](int lane) { visited |= std::uint64_t{1} << lane; });
-        EXPECT_EQ(visited, pattern);
-        EXPECT_EQ(any(mask), pattern != 0);
-        EXPECT_EQ(all(mask), pattern == 0xFFFF);
-        for (int lane = 0; lane < width; ++lane)
-            EXPECT_EQ(numbers[lane], static_cast<std::int64_t>(pattern >> lane & 1));
-    }
-}
-
-TEST(Packs, BringSomeLanesTogetherAndBack) {
-    for (const std::uint64_t pattern : {0x0000u, 0x8001u, 0x0100u, 0xA5A5u, 0xFF00u, 0x00FFu}) {
-        const Bools mask = Bools::of_bits(pattern);
-        Reals values, target{-1.0};
-        for (int lane = 0; lane < width; ++lane) values.set(lane, 100 + lane);
-        const Lanes<double, 8> some = compress(mask, values, 7.0);
-        expand(mask, some, target);
-        int next = 0;
-        for_each_lane(mask, [&](int lane) { EXPECT_EQ(some[next++], 100 + lane); });
-        while (next < 8) EXPECT_EQ(some[next++], 7.0);
-        for (int lane = 0; lane < width; ++lane)
-            EXPECT_EQ(target[lane], mask[lane] ? 100 + lane : -1.0);
-    }
-}
-
 TEST(Packs, TakeBranchesInEachLane) {
     const auto third = [] {
         return Bools::of_bits(0x00FF);
@@ -345,7 +323,7 @@ void expect_elements_of_scalars() {
     for (std::int64_t& index : indices) index = floor_mod(index, std::int64_t{size});
     expect_bits_of_scalars(
         "at", [&](auto i) { return at(table, i); }, indices);
-    expect_bits_of_scalars(
+    expect_bits_in_lanes<width>(
         "at", [&](auto i) { return at(floats, i); }, indices);
     expect_bits_of_scalars(
         "at", [&](auto i) { return at(numbers, i); }, indices);
