@@ -459,7 +459,7 @@ constexpr std::uint64_t bytes_of_bits(std::uint64_t bits) {
 
 typedef std::uint64_t TwoWords __attribute__((vector_size(16)));
 
-#ifdef __AVX2__
+#ifdef __SSE2__
 // 0 < `count` <= 16 bytes, in the largest parts of 16, 8, 4, 2 and 1; zeros behind them.
 [[gnu::always_inline]] inline __m128i load_parts(const void* bytes, int count) {
     if (count == 16) return _mm_loadu_si128(static_cast<const __m128i_u*>(bytes));

@@ -38,7 +38,7 @@ template <int size>
 template <class V, int n>
 [[gnu::always_inline]] inline V load_bytes(const void* from) {
     V values{};
-#ifdef __AVX2__
+#ifdef __SSE2__
     if constexpr (sizeof(V) == 16) return reinterpret<V>(load_parts(from, n));
 #endif
 #ifdef RDDL_SIMD_AVX512
@@ -71,7 +71,7 @@ template <class V, int n>
 }
 template <int n, class V>
 [[gnu::always_inline]] inline void store_bytes(V values, void* to) {
-#ifdef __AVX2__
+#ifdef __SSE2__
     if constexpr (sizeof(V) == 16) return store_parts(to, reinterpret<__m128i>(values), n);
 #endif
 #ifdef RDDL_SIMD_AVX512
