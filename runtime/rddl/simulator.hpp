@@ -28,6 +28,7 @@
 #include <rddl/values/reductions.hpp>
 #include <rddl/values/search.hpp>
 #include <rddl/values/tables.hpp>
+#include <rddl/values/tapes.hpp>
 #include <rddl/values/true_elements.hpp>
 #include <rddl/values/unions.hpp>
 

@@ -140,6 +140,9 @@ class Expressions {
 
     // A table whole: its name, or the member of the record that holds it.
     tree::Expression record(ir::BufferId buffer);
+    // The tape of a table of the state or the next one; and both, whether or not it lies there.
+    tree::Expression tape(ir::BufferId buffer);
+    tree::Expressions with_tape(ir::BufferId buffer);
 
     Uses& uses() { return uses_; }
     const Unit& unit() const { return unit_; }
