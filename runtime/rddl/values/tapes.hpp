@@ -86,6 +86,17 @@ RDDL_INLINE const Real* first_real(const Table& table) {
 // Element i becomes element i + 1, except the last one; -0.0 becomes 0.0.
 template <std::size_t count, class Real>
 RDDL_INLINE void move_to_front(const Real* __restrict from, Real* __restrict to) {
+    if constexpr (std::is_arithmetic_v<Real>) {
+        using Some = Lanes<Real, simd::lanes_of<Real>>;
+        constexpr std::size_t width = Some::width;
+        const auto move = [=](std::size_t i) RDDL_INLINE_LAMBDA {
+            (Some(Real(0.0)) + Some::load(from + i + 1)).store(to + i);
+        };
+        if constexpr (count > width) {  // the last ones with some of those before
+            for (std::size_t i = 0; i + width < count; i += width) move(i);
+            return move(count - 1 - width);
+        }
+    }
     for (std::size_t i = 0; i + 1 < count; ++i) to[i] = Real(0.0) + from[i + 1];
 }
 template <std::size_t row, std::size_t count, class Real>
