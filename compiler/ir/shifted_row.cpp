@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <iterator>
 #include <variant>
 
 namespace rddlc::ir {
@@ -141,6 +142,25 @@ const Loop* shifting_loop(const Definition& definition) {
         block = &loop->body;
     }
     return nullptr;
+}
+
+std::set<BufferId> read_by_shifts_alone(const Program& program) {
+    std::vector<NodeId> shifts, others;
+    for (const Definition& definition : program.step)
+        if (const Loop* const loop = shifting_loop(definition)) {
+            shifts.push_back(only_store(*loop)->value);
+            const ShiftedRow row = shifted_row(program, *loop).value();
+            for (const PlacedTerm& each : row.terms)
+                others.insert(others.end(), {each.value, each.term});
+        }
+    if (shifts.empty()) return {};
+    std::ranges::copy_if(roots_of(program), std::back_inserter(others), [&](NodeId root) {
+        return std::ranges::find(shifts, root) == shifts.end();
+    });
+    std::set<BufferId> alone = buffers_read_by(program, shifts);
+    for (const BufferId read : buffers_read_by(program, others)) alone.erase(read);
+    std::erase_if(alone, [&](BufferId id) { return program[id].storage != Storage::Constant; });
+    return alone;
 }
 
 std::set<std::string> tables_on_tapes(const Program& program) {

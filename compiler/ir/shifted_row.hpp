@@ -40,5 +40,7 @@ const Loop* shifting_loop(const Definition& definition);
 // on tapes (rddl/values/tapes.hpp): what a step has done there cannot be undone, so there are none
 // where a step or a condition may fault.
 std::set<std::string> tables_on_tapes(const Program& program);
+// The tables of constants that only say how rows are shifted.
+std::set<BufferId> read_by_shifts_alone(const Program& program);
 
 }  // namespace rddlc::ir

@@ -4,6 +4,7 @@
 #include "emit/cpp/print.hpp"
 #include "emit/lower/operators.hpp"
 #include "ir/layout.hpp"
+#include "ir/shifted_row.hpp"
 #include "support/match.hpp"
 
 #include <fmt/ranges.h>
@@ -12,6 +13,8 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <set>
+#include <string>
 
 namespace rddlc::cpp {
 namespace {
@@ -207,10 +210,12 @@ tree::Statement normals_of_step(const Unit& unit) {
 
 std::string tables(const Unit& unit, const Unit* around) {
     tree::Block definitions;
+    const std::set<ir::BufferId> unread = ir::read_by_shifts_alone(unit.program);
     for (std::size_t index = 0; index < unit.program.buffers.size(); ++index) {
         const ir::Buffer& buffer = unit.program.buffers[index];
         const std::string& initial = unit.names.initial[index];
         if (buffer.storage != ir::Storage::Constant && initial.empty()) continue;
+        if (unread.contains({static_cast<std::uint32_t>(index)})) continue;
         const std::string& name = initial.empty() ? unit.names.buffers[index] : initial;
         const RealType real = unit.program.real;
         // Episodes start in the program around.
