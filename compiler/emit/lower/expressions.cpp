@@ -548,6 +548,21 @@ Expression Expressions::parameter(ir::VariableId variable, ir::NodeId body) cons
     return {tree::Declared{"rddl::Index", variables_.at(variable)}};
 }
 
+// "rddl::sum_of_row(state.q, u)"
+std::optional<Expression> Expressions::sum_of_row(const ir::Node& node) {
+    const auto* reduce = std::get_if<ir::Reduce>(&node.form);
+    if (!several_ || !reduce || reduce->op != Reduction::Sum || reduce->bounds) return std::nullopt;
+    const auto* load = std::get_if<ir::Load>(&unit_.program[reduce->body].form);
+    const std::size_t own = several_->nest.variables.size();
+    if (!load || load->gather != ir::Gather::Adjacent || load->indices.size() != own + 1 ||
+        unit_.program[load->buffer].scalar != ir::Scalar::Real ||
+        unit_.program[load->buffer].storage == ir::Storage::Constant ||
+        unit_.program[load->buffer].shape.back() != unit_.program[reduce->variable].size ||
+        !ir::is_index_of(unit_.program, load->indices.back(), reduce->variable))
+        return std::nullopt;
+    return tree::call("rddl::sum_of_row", {record(load->buffer), word(several_->objects)});
+}
+
 Expression Expressions::inline_binder(const ir::Node& node) {
     return lower_binder(node,
                         [&](ir::NodeId body) { return tree::Block{{tree::Return{result(body)}}}; });
