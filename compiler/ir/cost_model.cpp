@@ -299,7 +299,7 @@ PackCost cost_of(const Program& program, std::span<const Properties> properties)
 
 double iterations_at_once(const Loop& loop) {
     if (loop.as_words) return bools_at_once;
-    return loop.several_at_once ? objects_at_once : 1;
+    return loop.several_at_once || loop.shifts ? objects_at_once : 1;
 }
 
 double cost_of(Operator op) {

@@ -344,6 +344,9 @@ struct Loop {
     std::optional<Chosen> chosen = {};
     // It quantifies (passes/lanes/tabulate_clearances.hpp).
     std::optional<Clearances> clearances = {};
+    // It moves the elements of a row one place towards the front, and adds terms to some
+    // (shifted_row.hpp). Emitted code moves all rows of the table before the outermost loop.
+    bool shifts = false;
 };
 // An element that gets a value where a condition is true; else it stays as it is.
 struct Mark {

@@ -66,7 +66,7 @@ std::vector<NodeId> values_of(const Block& block) {
 }
 
 bool takes_all_objects(const Loop& loop) {
-    return !loop.as_words && !loop.affected && !loop.chosen && !loop.clearances;
+    return !loop.as_words && !loop.affected && !loop.chosen && !loop.clearances && !loop.shifts;
 }
 
 std::int64_t combinations(const Program& program, std::span<const VariableId> variables) {

@@ -269,6 +269,7 @@ class Printer {
     void print(const Loop& loop) {
         const char* const how = loop.as_words          ? ", as words"
                                 : loop.several_at_once ? ", several at once"
+                                : loop.shifts          ? ", shifts"
                                                        : "";
         const std::string affected =
             loop.affected ? ", affected by " + element(loop.affected->few, {}) : "";

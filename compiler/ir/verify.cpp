@@ -6,6 +6,7 @@
 #include "ir/call.hpp"
 #include "ir/print.hpp"
 #include "ir/row_of_bools.hpp"
+#include "ir/shifted_row.hpp"
 #include "support/failure.hpp"
 #include "support/match.hpp"
 
@@ -622,14 +623,15 @@ class Verifier {
             if (form.chosen->kept) keeps(few, program_[*form.chosen->kept]);
         }
         if (form.clearances) near(*form.clearances);
+        require(!form.shifts || (!form.several_at_once && shifted_row(program_, form)),
+                "'{}' does not shift a row", program_[form.variable].name);
         for (const Statement& each : form.body) statement(each, scope, readable);
     }
 
     void keeps(const Buffer& few, const Buffer& kept) {
         require(kept.storage == Storage::State && kept.scalar == Scalar::Bool &&
                     kept.shape == few.shape,
-                "'{}' does not say which objects keep their elements of '{}'", few.name,
-                kept.name);
+                "'{}' does not say which objects keep their elements of '{}'", few.name, kept.name);
     }
 
     void moves(const Moves& form, const Buffer& few) {

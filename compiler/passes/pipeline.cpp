@@ -63,6 +63,7 @@
 #include "passes/lanes/read_rows.hpp"
 #include "passes/lanes/separate_aggregations.hpp"
 #include "passes/lanes/separate_counts.hpp"
+#include "passes/lanes/shift_rows.hpp"
 #include "passes/lanes/skip_unread.hpp"
 #include "passes/lanes/tabulate_clearances.hpp"
 #include "passes/lanes/test_cheap_first.hpp"
@@ -499,6 +500,12 @@ constexpr Pass in_order[] = {
      strength_summary,
      {"share_subexpressions"},
      "an expression that has a name is cheap enough for a product"},
+    {"shift_rows",
+     Phase::Lanes,
+     shift_rows,
+     "elements of the state that move one place in each step are moved as a table",
+     {"share_subexpressions"},
+     "the loops have their final bodies; evaluate_together takes other ones"},
     {"evaluate_together",
      Phase::Lanes,
      evaluate_together,

@@ -14,6 +14,7 @@
 #include <rddl/object_lanes/rows.hpp>
 #include <rddl/object_lanes/step_normals.hpp>
 #include <rddl/object_lanes/step_numbers.hpp>
+#include <rddl/object_lanes/sums_of_rows.hpp>
 #include <rddl/object_lanes/weight_rows.hpp>
 #include <rddl/random/distributions.hpp>
 #include <rddl/simulator.h>
@@ -28,6 +29,7 @@
 #include <rddl/values/reductions.hpp>
 #include <rddl/values/search.hpp>
 #include <rddl/values/tables.hpp>
+#include <rddl/values/tapes.hpp>
 #include <rddl/values/true_elements.hpp>
 #include <rddl/values/unions.hpp>
 

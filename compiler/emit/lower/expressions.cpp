@@ -550,6 +550,21 @@ Expression Expressions::parameter(ir::VariableId variable, ir::NodeId body) cons
     return {tree::Declared{"rddl::Index", variables_.at(variable)}};
 }
 
+// "rddl::sum_of_row(state.q, u)"
+std::optional<Expression> Expressions::sum_of_row(const ir::Node& node) {
+    const auto* reduce = std::get_if<ir::Reduce>(&node.form);
+    if (!several_ || !reduce || reduce->op != Reduction::Sum || reduce->bounds) return std::nullopt;
+    const auto* load = std::get_if<ir::Load>(&unit_.program[reduce->body].form);
+    const std::size_t own = several_->nest.variables.size();
+    if (!load || load->gather != ir::Gather::Adjacent || load->indices.size() != own + 1 ||
+        unit_.program[load->buffer].scalar != ir::Scalar::Real ||
+        unit_.program[load->buffer].storage == ir::Storage::Constant ||
+        unit_.program[load->buffer].shape.back() != unit_.program[reduce->variable].size ||
+        !ir::is_index_of(unit_.program, load->indices.back(), reduce->variable))
+        return std::nullopt;
+    return tree::call("rddl::sum_of_row", {record(load->buffer), word(several_->objects)});
+}
+
 Expression Expressions::inline_binder(const ir::Node& node) {
     return lower_binder(node,
                         [&](ir::NodeId body) { return tree::Block{{tree::Return{result(body)}}}; });
@@ -562,7 +577,21 @@ Expression Expressions::record(ir::BufferId id) {
     const ir::Storage storage = unit_.program[id].storage;
     if (storage == ir::Storage::Constant) return word(name);
     uses_.records.insert(storage);
-    return word(words_of(storage).parameter + "." + name);
+    Expression table = word(words_of(storage).parameter + "." + name);
+    if (unit_.names.tapes[id.index].empty()) return table;
+    return tree::call("rddl::window", list(std::move(table), tape(id)));
+}
+
+Expression Expressions::tape(ir::BufferId id) {
+    if (unit_.names.tapes[id.index].empty()) return word("rddl::no_tape");
+    const std::string record = words_of(unit_.program[id].storage).parameter;
+    return word(record + "." + unit_.names.tapes[id.index]);
+}
+
+tree::Expressions Expressions::with_tape(ir::BufferId id) {
+    const ir::Storage storage = unit_.program[id].storage;
+    (storage == ir::Storage::Next ? uses_.stored : uses_.records).insert(storage);
+    return {word(words_of(storage).parameter + "." + unit_.names.buffers[id.index]), tape(id)};
 }
 
 Expression Expressions::elements(Expression table, std::span<const ir::NodeId> indices) {

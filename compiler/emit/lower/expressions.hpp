@@ -62,6 +62,7 @@ class Expressions {
     // An aggregation or a draw over objects; `body` is called while its variable has a name.
     template <class Body>
     tree::Expression lower_binder(const ir::Node& binder, Body&& body) {
+        if (auto sum = sum_of_row(binder)) return *std::move(sum);
         if (auto count = count_of_true(binder)) return *std::move(count);
         if (auto any = any_in_common_rows(binder)) return *std::move(any);
         if (auto sum = sum_where_true(binder)) return *std::move(sum);
@@ -140,6 +141,11 @@ class Expressions {
 
     // A table whole: its name, or the member of the record that holds it.
     tree::Expression record(ir::BufferId buffer);
+    // The tape of a table of the state or the next one; and both, whether or not it lies there.
+    tree::Expression tape(ir::BufferId buffer);
+    tree::Expressions with_tape(ir::BufferId buffer);
+    // The sum of each object's row of a table; nothing if a node is something else.
+    std::optional<tree::Expression> sum_of_row(const ir::Node& node);
 
     Uses& uses() { return uses_; }
     const Unit& unit() const { return unit_; }

@@ -8,6 +8,7 @@
 #include "emit/lower/statements.hpp"
 #include "emit/lower/tables.hpp"
 #include "emit/templates.hpp"
+#include "ir/shifted_row.hpp"
 #include "support/template_slots.hpp"
 #include "support/utf8.hpp"
 
@@ -227,6 +228,7 @@ struct CpfWriter {
         const ir::Definition& definition = definitions[k];
         FunctionBody body(unit, level + 1);
         if (tests_choices) body.keep_unchosen({&definition, 1});
+        if (const ir::Loop* const loop = ir::shifting_loop(definition)) body.shift(*loop);
         body.block(definition.body);
         result.uses.add(body.uses());
         return add(names[k], body.uses(), body_of(unit, body, definition.span),
@@ -502,7 +504,10 @@ std::string moderate_test(const Unit& unit) {
         uses.records.insert(storage);
         const std::string element =
             words_of(storage).parameter + "." + unit.names.buffers[id.index];
-        const tree::Expression test = tree::call("rddl::is_moderate<L>", {word(element)});
+        tree::Expressions table = {word(element)};
+        if (const std::string& tape = unit.names.tapes[id.index]; !tape.empty())
+            table.push_back(word(words_of(storage).parameter + "." + tape));
+        const tree::Expression test = tree::call("rddl::is_moderate<L>", std::move(table));
         all = all ? tree::operation(plain_operator(Operator::And), {*all, test}) : test;
     }
     std::vector<Parameter> parameters = parameters_of({Storage::State, Storage::Action}, uses);

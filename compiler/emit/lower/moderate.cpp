@@ -5,6 +5,10 @@
 #include "emit/templates.hpp"
 #include "support/template_slots.hpp"
 
+#include <cstddef>
+#include <map>
+#include <string>
+
 namespace rddlc::cpp {
 
 namespace {
@@ -14,12 +18,28 @@ bool steps_moderately(const Unit& unit) {
     return moderate && (unit.has_packs() || !(*moderate)->only_in_packs);
 }
 
+// Both steps have the same records of the state.
+void take_tapes(const Unit& around, Unit& unit) {
+    std::map<std::string, std::string> tapes;
+    for (std::size_t index = 0; index < around.program.buffers.size(); ++index)
+        if (const std::string& tape = around.names.tapes[index]; !tape.empty())
+            tapes[around.program.buffers[index].name] = tape;
+    for (std::size_t index = 0; index < unit.program.buffers.size(); ++index) {
+        const ir::Buffer& buffer = unit.program.buffers[index];
+        const auto tape = tapes.find(buffer.name);
+        if (tape != tapes.end() &&
+            is_one_of(buffer.storage, {ir::Storage::State, ir::Storage::Next}))
+            unit.names.tapes[index] = tape->second;
+    }
+}
+
 }  // namespace
 
 std::string moderate_section(const Unit& around) {
     if (!steps_moderately(around)) return "";
     Unit unit(**around.program.moderate, around.sources, around.options);
     unit.names.space = "moderate";
+    take_tapes(around, unit);
     const StepFunctions step = step_functions(unit);
     const std::string text =
         fill_slots(templates::moderate, {{"tables", tables(unit, &around)},

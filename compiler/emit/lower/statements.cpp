@@ -5,6 +5,7 @@
 #include "emit/cpp/print.hpp"
 #include "emit/lower/operators.hpp"
 #include "ir/shared_in_cases.hpp"
+#include "ir/shifted_row.hpp"
 #include "ir/visits.hpp"
 #include "support/match.hpp"
 
@@ -269,7 +270,43 @@ void FunctionBody::statement(const ir::Store& store) {
     expressions_.forget(before);
 }
 
+// rddl::shift<time_count>(context, state.flow, state.flow_tape, next.flow, next.flow_tape);
+void FunctionBody::shift(const ir::Loop& loop) {
+    const ir::ShiftedRow row = ir::shifted_row(program(), loop).value();
+    const std::string size = expressions_.unit().size_of(program()[loop.variable]);
+    expressions_.uses().context = true;
+    tree::Expressions arguments = {tree::word(expressions_.context())};
+    append(arguments, expressions_.with_tape(row.from));
+    append(arguments, expressions_.with_tape(row.target));
+    statements_.push_back({tree::call("rddl::shift<" + size + ">", std::move(arguments))});
+}
+
+// rddl::add_to_row(rddl::window(next.flow, next.flow_tape)[u], next.flow_tape,
+//                  rddl::Added<Int, Real>{scratch.due[u], scratch.in[u]});
+void FunctionBody::add_to_row(const ir::Loop& loop) {
+    const auto before = expressions_.mark();
+    const ir::ShiftedRow row = ir::shifted_row(program(), loop).value();
+    const std::string type = "rddl::Added<" + expressions_.type(ir::Scalar::Int) + ", " +
+                             expressions_.type(ir::Scalar::Real) + ">";
+    tree::Expressions arguments = {expressions_.target(row.target, row.indices),
+                                   expressions_.tape(row.target)};
+    const Use use{type.size()};
+    for (const ir::PlacedTerm& each : row.terms) {
+        prepare(use, each.value);
+        tree::Expression place = value(use, each.value);
+        if (each.first != 0)
+            place = tree::call("rddl::wrap_sub",
+                               tree::list(std::move(place), tree::number(each.first)));
+        prepare(use, each.term);
+        arguments.push_back(
+            tree::braces(type, tree::list(std::move(place), value(use, each.term))));
+    }
+    statements_.push_back({tree::call("rddl::add_to_row", std::move(arguments))});
+    expressions_.forget(before);
+}
+
 void FunctionBody::statement(const ir::Loop& loop) {
+    if (loop.shifts) return add_to_row(loop);
     if (loop.several_at_once) return over_several_objects(loop);
     const auto before = expressions_.mark();
     const std::string name = expressions_.enter(loop.variable);

@@ -24,6 +24,8 @@ class FunctionBody {
     void block(const ir::Block& block);
     // Returns where definitions, of which all have the same choices, keep tables of the state.
     void keep_unchosen(std::span<const ir::Definition> definitions);
+    // Moves the elements of all rows of a table, before the loops around a loop that shifts.
+    void shift(const ir::Loop& loop);
     void return_value(ir::NodeId value);
 
     tree::Block& statements() { return statements_; }
@@ -34,6 +36,7 @@ class FunctionBody {
     void statement(const ir::Let& let);
     void statement(const ir::Store& store);
     void statement(const ir::Loop& loop);
+    void add_to_row(const ir::Loop& loop);
     void statement(const ir::Spread& spread);
     void statement(const ir::Visit& visit);
     void visits(const std::vector<const ir::Visit*>& all);

@@ -4,6 +4,7 @@
 #include "emit/cpp/print.hpp"
 #include "emit/lower/operators.hpp"
 #include "ir/layout.hpp"
+#include "ir/shifted_row.hpp"
 #include "support/match.hpp"
 
 #include <fmt/ranges.h>
@@ -12,6 +13,8 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <set>
+#include <string>
 
 namespace rddlc::cpp {
 namespace {
@@ -138,6 +141,21 @@ std::string objects(const Unit& unit) {
     return section("objects", tree::print(counts, 0));
 }
 
+// [[no_unique_address]] rddl::Tape<L, std::array<...>> flow_tape;
+tree::Block tapes(const Unit& unit) {
+    tree::Block members;
+    for (std::size_t index = 0; index < unit.program.buffers.size(); ++index) {
+        const ir::Buffer& buffer = unit.program.buffers[index];
+        const std::string& name = unit.names.tapes[index];
+        if (name.empty() || buffer.storage != ir::Storage::State) continue;
+        const std::string table =
+            array_type(unit, buffer, "typename L::" + lane_type(buffer.scalar));
+        members.push_back({tree::Expression{
+            tree::Declared{"[[no_unique_address]] rddl::Tape<L, " + table + ">", name}}});
+    }
+    return members;
+}
+
 std::string record(const Unit& unit, const std::string& name, ir::Storage storage) {
     tree::Record result{name, {}};
     for (std::size_t index = 0; index < unit.program.buffers.size(); ++index) {
@@ -149,6 +167,7 @@ std::string record(const Unit& unit, const std::string& name, ir::Storage storag
             {.form = tree::Expression{tree::Declared{type, unit.names.buffers[index]}},
              .remark = unit.where(buffer.span)});
     }
+    if (storage == ir::Storage::State) append(result.members, tapes(unit));
     return tree::print({{.form = std::move(result), .is_template = true}}, 0);
 }
 
@@ -191,10 +210,12 @@ tree::Statement normals_of_step(const Unit& unit) {
 
 std::string tables(const Unit& unit, const Unit* around) {
     tree::Block definitions;
+    const std::set<ir::BufferId> unread = ir::read_by_shifts_alone(unit.program);
     for (std::size_t index = 0; index < unit.program.buffers.size(); ++index) {
         const ir::Buffer& buffer = unit.program.buffers[index];
         const std::string& initial = unit.names.initial[index];
         if (buffer.storage != ir::Storage::Constant && initial.empty()) continue;
+        if (unread.contains({static_cast<std::uint32_t>(index)})) continue;
         const std::string& name = initial.empty() ? unit.names.buffers[index] : initial;
         const RealType real = unit.program.real;
         // Episodes start in the program around.
@@ -218,6 +239,26 @@ std::string records(const Unit& unit) {
         text += "\n// What the policy remembers from one decision to the next.\n" +
                 record(unit, "PolicyMemory", ir::Storage::Memory);
     return section("records", text);
+}
+
+std::string tape_functions(const Unit& unit) {
+    std::string sizes, calls;
+    for (std::size_t index = 0; index < unit.program.buffers.size(); ++index) {
+        const std::string& tape = unit.names.tapes[index];
+        if (tape.empty() || unit.program.buffers[index].storage != ir::Storage::State) continue;
+        sizes += (sizes.empty() ? "" : " +\n               ") +
+                 fmt::format("rddl::bytes_of_tape<decltype(State<L>::{})>", tape);
+        calls += fmt::format("        rddl::settle(state.{}, state.{});\n",
+                             unit.names.buffers[index], tape);
+    }
+    if (calls.empty()) return "";
+    return "    // Tables of the state that may lie on tapes (rddl/values/tapes.hpp), behind its "
+           "other\n"
+           "    // values: the bytes of the tapes, and a state without such tables.\n"
+           "    template <class L>\n    static constexpr std::size_t tapes_size() {\n        "
+           "return " +
+           sizes + ";\n    }\n    template <class L>\n    static void settle(State<L>& state) {\n" +
+           calls + "    }\n";
 }
 
 // That the records are laid out as the interpreter's are; Compiled checks that copies are trivial.

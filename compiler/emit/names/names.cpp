@@ -1,6 +1,9 @@
 #include "emit/names/names.hpp"
 
+#include "ir/shifted_row.hpp"
+
 #include <map>
+#include <set>
 #include <stdexcept>
 #include <string_view>
 #include <utility>
@@ -15,6 +18,7 @@ constexpr Mark count_mark{"", "_count"};
 constexpr Mark table_mark{"", "_"};
 constexpr Mark initial_mark{"initial_", ""};
 constexpr Mark function_mark{"set_", ""};
+constexpr Mark tape_mark{"", "_tape"};
 
 // Each record has a region of its own, except that Next is State again, and NextMemory Memory.
 struct RecordScopes {
@@ -47,8 +51,9 @@ bool is_next(const ir::Buffer& buffer) {
     return buffer.storage == Storage::Next || buffer.storage == Storage::NextMemory;
 }
 
-void name_members(const ir::Program& program, const Scope& file, std::vector<std::string>& names) {
-    RecordScopes records(file);
+void name_members(const ir::Program& program, Names& all) {
+    RecordScopes records(all.file);
+    std::vector<std::string>& names = all.buffers;
     std::map<std::pair<Storage, std::string_view>, std::size_t> currents;
     for (std::size_t index = 0; index < program.buffers.size(); ++index) {
         const ir::Buffer& buffer = program.buffers[index];
@@ -64,6 +69,16 @@ void name_members(const ir::Program& program, const Scope& file, std::vector<std
         const Storage current = is_state ? Storage::State : Storage::Memory;
         names[index] = names[currents.at({current, buffer.name})];
     }
+    all.tapes.resize(program.buffers.size());
+    const std::set<std::string> shifted = ir::tables_on_tapes(program);
+    for (std::size_t index = 0; index < program.buffers.size(); ++index)
+        if (program.buffers[index].storage == Storage::State &&
+            shifted.contains(program.buffers[index].name))
+            all.tapes[index] = records.state.claim(program.buffers[index].name, tape_mark);
+    for (std::size_t index = 0; index < program.buffers.size(); ++index)
+        if (program.buffers[index].storage == Storage::Next)
+            all.tapes[index] =
+                all.tapes[currents.at({Storage::State, program.buffers[index].name})];
 }
 
 }  // namespace
@@ -123,7 +138,7 @@ Names names_of(const ir::Program& program) {
         if (buffer.storage == Storage::Constant)
             names.buffers[index] = names.file.claim(buffer.name, table_mark);
     }
-    name_members(program, names.file, names.buffers);
+    name_members(program, names);
 
     // One value, or the same everywhere, needs no table.
     names.initial.resize(program.buffers.size());

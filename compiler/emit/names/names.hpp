@@ -35,11 +35,14 @@ inline constexpr Mark scope{"scope_", ""};
 }  // namespace marks
 
 struct Names {
-    std::string space;                   // the namespace in rddl_simulators: domain_instance
-    std::string entry;                   // the extern "C" function
-    std::vector<std::string> counts;     // by type: how many objects it has
-    std::vector<std::string> buffers;    // by BufferId: a table, or a member of a record
-    std::vector<std::string> initial;    // by BufferId: the table of its first values, or empty
+    std::string space;                 // the namespace in rddl_simulators: domain_instance
+    std::string entry;                 // the extern "C" function
+    std::vector<std::string> counts;   // by type: how many objects it has
+    std::vector<std::string> buffers;  // by BufferId: a table, or a member of a record
+    std::vector<std::string> initial;  // by BufferId: the table of its first values, or empty
+    // By BufferId: the member of a record of the state that is the tape of one of its tables
+    // (rddl/values/tapes.hpp), or empty.
+    std::vector<std::string> tapes;
     std::vector<std::string> functions;  // by index into Program::step: what fills its buffer
     std::vector<std::string> policy_functions;  // by index into Policy::act
     Scope file;                                 // what local names must differ from

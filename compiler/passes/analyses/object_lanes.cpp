@@ -14,6 +14,9 @@ constexpr std::int64_t fewest_iterations = 8;
 // Bools take one mask of all lanes, and its bits the place of jumps that processors cannot foresee.
 constexpr std::int64_t fewest_bools = 4;
 
+// A register has so many rows, and so many elements of each.
+constexpr std::int64_t registers_rows = 8;
+
 }  // namespace
 
 ObjectLanes::ObjectLanes(const ir::Program& program, PropertiesOf properties_of, ir::Nest nest,
@@ -65,7 +68,22 @@ bool ObjectLanes::can_be_weight(ir::NodeId id) const {
     return without_rows.can_evaluate(id) && can_be_term(id);
 }
 
+// A sum of the reals of each object's own row, in a table of the step: registers transpose rows.
+bool ObjectLanes::adds_own_row(const ir::Reduce& reduce) const {
+    if (reduce.op != Reduction::Sum || reduce.bounds || nest_.variables.size() != 1) return false;
+    const auto* load = std::get_if<ir::Load>(&program_[reduce.body].form);
+    if (!load || load->indices.size() != 2) return false;
+    const ir::Buffer& table = program_[load->buffer];
+    return table.scalar == ir::Scalar::Real &&
+           is_one_of(table.storage, {ir::Storage::State, ir::Storage::Scratch}) &&
+           table.shape[0] % registers_rows == 0 && table.shape[1] % registers_rows == 0 &&
+           program_[reduce.variable].size == table.shape[1] &&
+           ir::begins_with(program_, load->indices, nest_) &&
+           ir::is_index_of(program_, load->indices[1], reduce.variable);
+}
+
 bool ObjectLanes::can_aggregate(const ir::Reduce& reduce) const {
+    if (adds_own_row(reduce)) return true;
     return !reduce.bounds && reduce.op != Reduction::ArgMin && reduce.op != Reduction::ArgMax &&
            can_evaluate(reduce.body) && can_be_term(reduce.body);
 }

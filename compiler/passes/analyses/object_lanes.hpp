@@ -33,6 +33,7 @@ class ObjectLanes {
     bool can_index(ir::BufferId buffer, const std::vector<ir::NodeId>& indices) const;
     bool can_gather(ir::BufferId buffer, const std::vector<ir::NodeId>& indices) const;
     bool can_aggregate(const ir::Reduce& reduce) const;
+    bool adds_own_row(const ir::Reduce& reduce) const;
     bool can_be_term(ir::NodeId id) const;
     bool can_be_weight(ir::NodeId id) const;
     bool is_same(ir::NodeId id) const;

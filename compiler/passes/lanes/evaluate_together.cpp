@@ -64,10 +64,10 @@ class Marking {
         std::int64_t marked = 0;
         for (ir::Statement& statement : block) {
             auto* const loop = std::get_if<ir::Loop>(&statement.form);
-            if (!loop) continue;
+            if (!loop || loop->shifts) continue;
             const bool is_right = is_worth_it(*loop) && is_possible(*loop) &&
                                   !(is_inside && computes_ints(*loop) && !loop->several_at_once) &&
-                                  !waits(*loop);
+                                  !waits(*loop) && !shifts_inside(*loop);
             const bool was_marked = std::exchange(loop->several_at_once, is_right);
             loop->as_words = loop->several_at_once && is_of_words(program_, *loop);
             marked += loop->several_at_once && !was_marked;
@@ -77,6 +77,12 @@ class Marking {
     }
 
   private:
+    static bool shifts_inside(const ir::Loop& loop) {
+        bool shifts = false;
+        ir::for_each_statement<ir::Loop>(
+            loop.body, [&](const ir::Loop& inner) { shifts = shifts || inner.shifts; });
+        return shifts;
+    }
     bool is_worth_it(const ir::Loop& loop) const {
         const ir::Nest nest = ir::nest_of(loop);
         double cost = 0;

@@ -29,6 +29,7 @@ class AnyEngine {
           action_size_(engine.action_size()),
           observation_size_(engine.observation_size()),
           scratch_size_(engine.scratch_size()),
+          tape_size_(rddl::tape_size(engine)),
           has_policy_(rddl::has_policy(engine)),
           memory_size_(rddl::memory_size(engine)) {
         reset_some_ = [](const void* self, const Columns& columns, Bool lanes,
@@ -51,6 +52,10 @@ class AnyEngine {
         initial_state_ = [](const void* self, std::byte* state) {
             rddl::initial_state(of<E>(self), state);
         };
+        if (tape_size_ > 0)
+            settle_ = [](const void* self, std::byte* state) {
+                rddl::settle(of<E>(self), state);
+            };
         terminal_ = [](const void* self, const std::byte* state, Context<L>& context) -> Bool {
             return of<E>(self).terminal(state, context);
         };
@@ -74,6 +79,12 @@ class AnyEngine {
     std::size_t action_size() const { return action_size_; }
     std::size_t observation_size() const { return observation_size_; }
     std::size_t scratch_size() const { return scratch_size_; }
+    std::size_t tape_size() const { return tape_size_; }
+
+    // See rddl::settle.
+    void settle(std::byte* state) const {
+        if (settle_) settle_(engine_, state);
+    }
 
     void initial_state(std::byte* state) const { initial_state_(engine_, state); }
 
@@ -121,7 +132,7 @@ class AnyEngine {
     }
 
     const void* engine_;
-    std::size_t state_size_, action_size_, observation_size_, scratch_size_;
+    std::size_t state_size_, action_size_, observation_size_, scratch_size_, tape_size_;
     bool has_policy_;
     std::size_t memory_size_;
 
@@ -131,6 +142,7 @@ class AnyEngine {
     rddl_error (*advance_one_)(const void*, const BatchView<L>&, std::int64_t, Actions,
                                const rddl_transition&) = nullptr;
     void (*initial_state_)(const void*, std::byte*);
+    void (*settle_)(const void*, std::byte*) = nullptr;
     Bool (*terminal_)(const void*, const std::byte*, Context<L>&);
     Int (*violated_precondition_)(const void*, const std::byte*, const std::byte*, Context<L>&);
     void (*reset_policy_)(const void*, std::byte*) = nullptr;

@@ -481,9 +481,11 @@ class Batch {
     // Environments in the block.
     int lanes_of(std::size_t b) const { return lanes_of(static_cast<std::int64_t>(b)); }
     int lanes_of(std::int64_t b) const { return blocks_.lanes_of(b); }
-    std::byte* state(std::int64_t b) { return states_[2 * b + episodes_[index(b)].state]; }
-    const std::byte* state(std::int64_t b) const {
-        return states_[2 * b + episodes_[index(b)].state];
+    // As its columns have it.
+    std::byte* state(std::int64_t b) const {
+        std::byte* const record = states_[2 * b + episodes_[index(b)].state];
+        if constexpr (width > 1) settle(*engine_, record);
+        return record;
     }
     // Nothing but the lane of this environment.
     static Bool only(std::int64_t i) {
@@ -756,7 +758,7 @@ class Batch {
     const rddl_problem* problem_;
     BatchOptions options_;
     Columns state_columns_, action_columns_, observation_columns_;
-    Records states_;               // two for each block
+    mutable Records states_;       // two for each block, which may be settled
     Records observations_;         // blocks; empty when fully observed
     Records actions_;              // blocks; empty unless they are read when they are checked
     Records memories_;             // of the policy; empty without a policy

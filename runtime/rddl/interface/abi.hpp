@@ -183,10 +183,13 @@ class Functions {
             const Columns columns = columns_of<typename OneEngine::Lane>(problem, role, row_size);
             return columns.block_size == static_cast<std::int64_t>(block_size);
         };
-        return agree(RDDL_STATE, problem.state_size, engine.state_size()) &&
+        const std::size_t state_size = engine.state_size() - tape_size(engine);
+        const std::size_t observation_size =
+            problem.partially_observed != 0 ? engine.observation_size() : state_size;
+        return agree(RDDL_STATE, problem.state_size, state_size) &&
                agree(RDDL_ACTION, problem.action_size, engine.action_size()) &&
                agree(problem.partially_observed != 0 ? RDDL_OBSERVATION : RDDL_STATE,
-                     problem.observation_size, engine.observation_size());
+                     problem.observation_size, observation_size);
     }
 
     // Packs wait for their slowest lane and have more to start and to end, and lanes without an

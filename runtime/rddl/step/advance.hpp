@@ -126,6 +126,7 @@ template <Engine E, class L>
 [[gnu::noinline]] void take_over_some(const E& engine, const Blocks<L>& blocks, std::int64_t b,
                                       typename L::Bool mask, const StepBuffers& made) {
     const auto place = static_cast<std::size_t>(b);
+    settle(engine, made.next);
     merge(L{}, *blocks.state_columns, mask, made.next, state_of(engine, blocks, b));
     if (blocks.observations != nullptr)
         merge(L{}, *blocks.observation_columns, mask, made.observation,
@@ -203,7 +204,8 @@ RDDL_ALWAYS_INLINE typename L::Real make_step(const E& engine, const Blocks<L>& 
                                               StepBuffers made, const StepBuffers& memory) {
     using Bool = typename L::Bool;
     Episodes<L>& episodes = blocks.episodes[b];
-    const std::byte* const states = state_of(engine, blocks, b);
+    std::byte* const states = state_of(engine, blocks, b);
+    if (!all_run) settle(engine, states);
     made.next = next_state_of(engine, blocks, b, made.next);
     const std::byte* const action = action_of_block(engine, blocks, b, actions, made.action);
     Context<L> context = episodes.context_of_step(running);

@@ -66,6 +66,10 @@ struct WithModerateStep : Simulator {
     [[gnu::noinline, gnu::cold]] static typename L::Real of_any_values(
         const State& state, const Action& action, ScratchOfAny& scratch, State& next,
         Observation& observation, Context<L>& context) {
+        if constexpr (requires { Simulator::settle(next); }) {
+            Simulator::settle(const_cast<State&>(state));
+            Simulator::settle(next);
+        }
         return rddl::step_with_reward<Simulator>(state, action, scratch, next, observation,
                                                  context);
     }
@@ -107,7 +111,19 @@ struct Compiled {
         return Simulator::partially_observed ? record_size<Observation> : record_size<State>;
     }
 
+    static constexpr bool has_tapes = L::width > 1 && requires(State& state) {
+        Simulator::settle(state);
+    };
+    static constexpr std::size_t tape_size() {
+        if constexpr (has_tapes) return Simulator::template tapes_size<L>();
+        return 0;
+    }
+    static void settle(std::byte* state) {
+        if constexpr (has_tapes) Simulator::settle(as<State>(state));
+    }
+
     static void reset(std::byte* state, Context<L>& context) {
+        settle(state);
         Simulator::reset(as<State>(state), context);
     }
 

@@ -86,6 +86,19 @@ void initial_state(const E& engine, std::byte* state) {
     }
 }
 
+// Tables of a state may lie on tapes (rddl/values/tapes.hpp), behind its other values. They come
+// back to where the columns have them, before others than the engine read or write them.
+template <StateEngine E>
+RDDL_INLINE void settle(const E& engine, std::byte* state) {
+    if constexpr (requires { engine.settle(state); }) engine.settle(state);
+}
+// Bytes of tapes in a record.
+template <StateEngine E>
+constexpr std::size_t tape_size(const E& engine) {
+    if constexpr (requires { engine.tape_size(); }) return engine.tape_size();
+    return 0;
+}
+
 // The actions of a step, and where it leaves its results until it is known not to have faulted.
 struct StepBuffers {
     std::byte* action;

@@ -297,6 +297,7 @@ void start_next(const E& engine, const Blocks<L>& blocks, std::int64_t b, typena
     if (blocks.streams != nullptr) set_keys(blocks, b, lanes);
     Context<L> context = episodes.context_of_state(lanes);
     const StateRecords records{blocks.state_of(b, engine.state_size()), room};
+    settle(engine, records.states);
     const typename L::Bool terminal =
         reset_some(engine, *blocks.state_columns, lanes, records, context);
     episodes.begin(lanes, terminal, context);

@@ -257,6 +257,28 @@ TEST(EvaluateTogether, TakesAggregationsOfElementsThatLieBesideEachOther) {
               "for x in obj, several at once");
 }
 
+// Registers transpose rows that fill them.
+TEST(EvaluateTogether, TakesSumsOfOwnRows) {
+    const auto loop_with = [](const std::string& objects, const std::string& sum) {
+        std::string text = with_pairs("~on(?x, ?y)").text();
+        const std::string three = "obj : {b1, b2, b3}", cpf = "w'(?x) = ~w(?x);";
+        text.replace(text.find(three), three.size(), "obj : {" + objects + "}");
+        text.replace(text.find(cpf), cpf.size(), "w'(?x) = " + sum + " > 1.0;");
+        Grounded result = ground_text(text);
+        if (!result.program) return result.messages;
+        passes::Report report;
+        const std::string step =
+            step_text(valid(passes::evaluate_together(std::move(*result.program), report)));
+        const std::size_t begin = step.rfind("for x in obj", step.find("next.w["));
+        return step.substr(begin, step.find('\n', begin) - begin);
+    };
+    const std::string eight = "b1, b2, b3, b4, b5, b6, b7, b8";
+    EXPECT_EQ(loop_with(eight, "(sum_{?y : obj} [v(?x, ?y)])"), "for x in obj, several at once");
+    EXPECT_EQ(loop_with(eight, "(sum_{?y : obj} [2.0 * v(?x, ?y)])"), "for x in obj");
+    EXPECT_EQ(loop_with(eight, "(prod_{?y : obj} [v(?x, ?y)])"), "for x in obj");
+    EXPECT_EQ(loop_with(eight + ", b9", "(sum_{?y : obj} [v(?x, ?y)])"), "for x in obj");
+}
+
 TEST(EvaluateTogether, TakesIntsThatAreMadeFromReals) {
     EXPECT_EQ(loop_over_triples("sgn[C(?x, ?y, ?z) * C(?x, ?y, ?z) - 0.25]", "int"),
               "for x in obj, several at once");

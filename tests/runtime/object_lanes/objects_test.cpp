@@ -557,5 +557,31 @@ TEST(Objects, HaveFloats) {
     expect_draws_of_floats<37>();
 }
 
+template <class R, std::size_t rows, std::size_t size>
+void expect_sums_of_rows() {
+    std::array<std::array<R, size>, rows> table;
+    for (std::size_t r = 0; r < rows; ++r)
+        for (std::size_t k = 0; k < size; ++k)
+            table[r][k] = k == 0 ? R(-0.0) : R(1) / static_cast<R>(r * size + k);
+    const auto expect_all = [&](const auto& objects, const auto& sums) {
+        for (int lane = 0; lane < objects.count; ++lane)
+            EXPECT_EQ(get_lane(sums, lane), sum_of_row(table, OneObject{objects.first + lane}));
+    };
+    const SomeObjects<8> eight{0, 8}, few{1, 5};
+    expect_all(eight, sum_of_row(table, eight));
+    expect_all(few, sum_of_row(table, few));
+    if constexpr (rows >= 16) {
+        const SomeObjects<16> all{0, 16}, most{2, 11};
+        expect_all(all, sum_of_row(table, all));
+        expect_all(most, sum_of_row(table, most));
+    }
+}
+TEST(SeveralObjects, AddTheirRowsInOrder) {
+    expect_sums_of_rows<double, 8, 8>();
+    expect_sums_of_rows<double, 16, 16>();
+    expect_sums_of_rows<double, 16, 11>();
+    expect_sums_of_rows<float, 16, 8>();
+}
+
 }  // namespace
 }  // namespace rddl

@@ -1,0 +1,262 @@
+// Tables of reals whose elements move one place towards the front of their rows in each step.
+//
+// One environment moves the elements. Packs, whose tables take that many times the memory, leave
+// them where they are: both records of a block use one tape, on which the table begins one element
+// further on in each step, so that the rows end where others have begun. At the end of the tape all
+// elements are moved back. Records whose tables lie on tapes are settled before others than emitted
+// code read or write them.
+#pragma once
+
+#include <rddl/lanes/lane.hpp>
+#include <rddl/lanes/pack.hpp>
+#include <rddl/values/context.hpp>
+#include <rddl/values/moderate.hpp>
+#include <rddl/values/ops.hpp>
+#include <rddl/values/pack_ops.hpp>
+
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <tuple>
+#include <type_traits>
+
+namespace rddl {
+
+// Stands in a record of the state behind its tables.
+struct NoTape {};
+inline constexpr NoTape no_tape{};
+template <class Real, class Table>
+struct LongTape {
+    static constexpr std::size_t count = sizeof(Table) / sizeof(Real);
+
+    std::int64_t place;  // bytes from the record's table to where it is now; 0: it is there
+    std::int64_t
+        steps;       // before it reaches the end of the tape; if it is there, since it was settled
+    bool has_great;  // an element on the tape may be no moderate number
+    Real elements[2 * count];  // tables of either record may lie here
+};
+template <class L, class Table>
+using Tape = std::conditional_t<L::width == 1, NoTape, LongTape<typename L::Real, Table>>;
+
+// Bytes of a record.
+template <class SomeTape>
+inline constexpr std::size_t bytes_of_tape = std::is_empty_v<SomeTape> ? 0 : sizeof(SomeTape);
+
+// The table of a record.
+template <class Table>
+RDDL_INLINE Table& window(Table& table, const NoTape&) {
+    return table;
+}
+template <class Real, class Table>
+RDDL_ALWAYS_INLINE Table& window(Table& table, const LongTape<Real, Table>& tape) {
+    return *reinterpret_cast<Table*>(reinterpret_cast<std::byte*>(&table) + tape.place);
+}
+template <class Real, class Table>
+RDDL_ALWAYS_INLINE const Table& window(const Table& table, const LongTape<Real, Table>& tape) {
+    return *reinterpret_cast<const Table*>(reinterpret_cast<const std::byte*>(&table) + tape.place);
+}
+
+// The table comes back from a tape, if it is on one.
+template <class Table>
+void settle(Table&, const NoTape&) {}
+template <class Real, class Table>
+void settle(Table& table, LongTape<Real, Table>& tape) {
+    if (tape.place != 0) table = window(table, tape);
+    tape.place = tape.steps = 0;
+}
+// A table that is settled again after a few steps had better not be moved to a tape.
+inline constexpr std::int64_t steps_before_tape = 4;
+
+// The same as is_moderate, for a table that may lie on a tape.
+template <class L, class Table, class SomeTape>
+RDDL_ALWAYS_INLINE typename L::Bool is_moderate(const Table& table, const SomeTape& tape) {
+    if constexpr (!std::is_empty_v<SomeTape>)
+        if (tape.place != 0 && !tape.has_great) [[likely]]
+            return true;
+    return is_moderate<L>(window(table, tape));
+}
+
+namespace detail {
+
+template <class Real, class Table>
+RDDL_INLINE const Real* first_real(const Table& table) {
+    return reinterpret_cast<const Real*>(&table);
+}
+// Element i becomes element i + 1, except the last one; -0.0 becomes 0.0.
+template <std::size_t count, class Real>
+RDDL_INLINE void move_to_front(const Real* __restrict from, Real* __restrict to) {
+    if constexpr (std::is_arithmetic_v<Real>) {
+        using Some = Lanes<Real, simd::lanes_of<Real>>;
+        constexpr std::size_t width = Some::width;
+        const auto move = [=](std::size_t i) RDDL_INLINE_LAMBDA {
+            (Some(Real(0.0)) + Some::load(from + i + 1)).store(to + i);
+        };
+        if constexpr (count > width) {  // the last ones with some of those before
+            for (std::size_t i = 0; i + width < count; i += width) move(i);
+            return move(count - 1 - width);
+        }
+    }
+    for (std::size_t i = 0; i + 1 < count; ++i) to[i] = Real(0.0) + from[i + 1];
+}
+template <std::size_t row, std::size_t count, class Real>
+RDDL_INLINE void clear_ends(Real* table) {
+    for (std::size_t end = row; end <= count; end += row) table[end - 1] = Real(0.0);
+}
+
+}  // namespace detail
+
+// In rows of so many elements, each one of `to` becomes 0.0 + the one of `from` behind it, and the
+// last one 0.0. Both are tables of the records of a state and its next one. That of the state is
+// lost: where all lanes run, it lies on the same tape.
+template <std::size_t row, class L, class Table>
+RDDL_INLINE void shift(const Context<L>&, const Table& from, const NoTape&, Table& to,
+                       const NoTape&) {
+    using Real = typename L::Real;
+    constexpr std::size_t count = sizeof(Table) / sizeof(Real);
+    Real* const elements = const_cast<Real*>(detail::first_real<Real>(to));
+    detail::move_to_front<count>(detail::first_real<Real>(from), elements);
+    detail::clear_ends<row, count>(elements);
+}
+template <std::size_t row, class L, class Real, class Table>
+RDDL_ALWAYS_INLINE void shift(const Context<L>& context, const Table& from,
+                              const LongTape<Real, Table>& from_tape, Table& to,
+                              LongTape<Real, Table>& tape) {
+    constexpr std::size_t count = LongTape<Real, Table>::count;
+    const Real* const source = detail::first_real<Real>(window(from, from_tape));
+    const bool all_run = all(context.active);
+    const bool is_on_tape = from_tape.place != 0;
+    Real* elements = tape.elements;
+    if (all_run && is_on_tape && from_tape.steps > 0) [[likely]] {
+        elements = const_cast<Real*>(source + 1);
+        tape.steps = from_tape.steps - 1;
+    } else {
+        const bool goes_on_tape = all_run && (is_on_tape || from_tape.steps >= steps_before_tape);
+        if (!goes_on_tape) elements = const_cast<Real*>(detail::first_real<Real>(to));
+        detail::move_to_front<count>(source, elements);
+        tape.steps =
+            goes_on_tape ? static_cast<std::int64_t>(count) : (all_run ? from_tape.steps + 1 : 0);
+    }
+    tape.place = reinterpret_cast<std::byte*>(elements) - reinterpret_cast<std::byte*>(&to);
+    tape.has_great = false;
+    detail::clear_ends<row, count>(elements);
+}
+
+// A term of the element at a place of a row; of none, if there is no such place.
+template <class Int, class Real>
+struct Added {
+    Int place;
+    Real term;
+};
+template <class Int, class Real>
+Added(Int, Real) -> Added<Int, Real>;
+
+namespace detail {
+
+// 0.0 + (the terms of this place, which stand in their order, + the element)
+template <class Int, class Real, class... Terms>
+RDDL_INLINE Real with_terms(const Int& place, const Real& element, const Terms&... terms) {
+    Real sum{-0.0};
+    const auto add = [&](const auto& each) RDDL_INLINE_LAMBDA {
+        sum = sum + select(each.place == place, Real(each.term), Real(0.0));
+    };
+    (add(terms), ...);
+    return Real(0.0) + (sum + element);
+}
+
+}  // namespace detail
+
+namespace detail {
+
+// The places of the lanes of elements that differ between the lanes, one real after the other.
+template <int n>
+inline constexpr auto lane_places = [] {
+    std::array<std::int64_t, static_cast<std::size_t>(n)> places{};
+    for (std::size_t lane = 0; lane < places.size(); ++lane)
+        places[lane] = static_cast<std::int64_t>(lane);
+    return places;
+}();
+template <int n>
+RDDL_INLINE Lanes<std::int64_t, n> places_of_lanes(const Lanes<std::int64_t, n>& places) {
+    using Int = Lanes<std::int64_t, n>;
+    return (places << std::countr_zero(unsigned{n})) + Int::load(lane_places<n>.data());
+}
+template <class R, int n>
+RDDL_INLINE Lanes<R, n> gather_lanes(const Lanes<R, n>* elements,
+                                     const Lanes<std::int64_t, n>& places) {
+    const R* const first = reinterpret_cast<const R*>(elements);
+#ifdef RDDL_SIMD_AVX512
+    if constexpr (std::is_same_v<R, double>)
+        return Lanes<R, n>::each(
+            [first](auto part) RDDL_INLINE_LAMBDA { return simd::gather(first, part); }, places);
+#endif
+    Lanes<R, n> values;
+    for (int lane = 0; lane < n; ++lane) values.set(lane, first[places[lane]]);
+    return values;
+}
+// Where the mask holds.
+template <class R, int n>
+RDDL_INLINE void scatter_lanes(const Lanes<R, n>& values, Mask<n> mask,
+                               const Lanes<std::int64_t, n>& places, Lanes<R, n>* elements) {
+    R* const first = reinterpret_cast<R*>(elements);
+#ifdef RDDL_SIMD_AVX512
+    if constexpr (std::is_same_v<R, double>) {
+        for (int p = 0; p < places.part_count; ++p) {
+            const auto some = static_cast<__mmask8>(std::uint64_t{mask.bits} >> (p * simd::lanes));
+            _mm512_mask_i64scatter_pd(first, some, (__m512i)places.part[p], (__m512d)values.part[p],
+                                      8);
+        }
+        return;
+    }
+#endif
+    for_each_lane(mask, [&](int lane) { first[places[lane]] = values[lane]; });
+}
+
+}  // namespace detail
+
+// Adds terms to elements of a row that was shifted: these are 0.0 + (term + term + element), with
+// 0.0 in place of the terms of other places.
+template <std::size_t row, class R, class... Terms>
+RDDL_INLINE void add_to_row(std::array<R, row>& elements, const NoTape&, const Terms&... terms) {
+    const auto is_there = [](std::int64_t place) RDDL_INLINE_LAMBDA {
+        return static_cast<std::uint64_t>(place) < row;
+    };
+    // All are read before one is written.
+    const std::array sums{is_there(terms.place)
+                              ? detail::with_terms(terms.place,
+                                                   elements[static_cast<std::size_t>(terms.place)],
+                                                   terms...)
+                              : R{}...};
+    const R* sum = sums.data();
+    ((is_there(terms.place) ? void(elements[static_cast<std::size_t>(terms.place)] = *sum) : void(),
+      ++sum),
+     ...);
+}
+// Lanes of packs have places of their own.
+template <std::size_t row, class R, int n, class SomeTape, class... Terms>
+RDDL_ALWAYS_INLINE void add_to_row(std::array<Lanes<R, n>, row>& elements, SomeTape& tape,
+                                   const Terms&... terms) {
+    using Int = Lanes<std::int64_t, n>;
+    using Real = Lanes<R, n>;
+    const auto is_there = [](const Int& place) RDDL_INLINE_LAMBDA {
+        return place >= Int{0} && place < Int{static_cast<std::int64_t>(row)};
+    };
+    const auto sum_at = [&](const Int& place) RDDL_INLINE_LAMBDA {
+        const Int somewhere = select(is_there(place), place, Int{0});
+        return detail::with_terms(
+            place, detail::gather_lanes(elements.data(), detail::places_of_lanes(somewhere)),
+            terms...);
+    };
+    const auto put = [&](const Int& place, const Real& sum) RDDL_INLINE_LAMBDA {
+        const Mask<n> there = is_there(place);
+        if constexpr (!std::is_empty_v<SomeTape>)
+            tape.has_great |= any(there && !(absolute(sum) <= Real(moderate)));
+        detail::scatter_lanes(sum, there, detail::places_of_lanes(place), elements.data());
+    };
+    // All are read before one is written.
+    const std::array sums{sum_at(terms.place)...};
+    const Real* sum = sums.data();
+    (put(terms.place, *sum++), ...);
+}
+
+}  // namespace rddl
