@@ -9,7 +9,7 @@ def add(draft: Draft) -> None:
     after = chain(draft, place)
     number = draft.declare("NUMBER", CONSTANT, "int", place)
     number.values = {(member,): str(index) for index, member in enumerate(draft.problem.type(place).members)}
-    carried = draft.declare("carried", STATE, draft.pick(["real", "real", "int", "bool"]), belt, place)
+    carried = draft.declare("carried", STATE, draft.pick(["real", "real", "real", "real", "int", "bool"]), belt, place)
     speed = draft.declare("speed", ACTION, "bool", belt, default="false")
     onward = moved(draft, place, after, carried)
     target, share = where(draft, belt, place)
@@ -37,7 +37,7 @@ def arriving(draft: Draft, belt: str, place: str, carried):
 
 def places(draft: Draft) -> str:
     name = draft.fresh("slot")
-    draft.problem.types.append(Type(name, False, [f"{name}-{i}" for i in range(draft.pick([1, 2, 3, 5, 7, 8, 9, 12, 16, 17, 21]))]))
+    draft.problem.types.append(Type(name, False, [f"{name}-{i}" for i in range(draft.pick([1, 3, 6, 8, 9, 12, 13, 16, 17, 21]))]))
     return name
 
 
@@ -45,8 +45,8 @@ def chain(draft: Draft, place: str):
     """Each place and the one that comes to it: the next one, now and then the one before, in a ring, or with a gap."""
     table = draft.declare("AFTER", CONSTANT, "bool", place, place, default="false")
     members = draft.problem.type(place).members
-    by = draft.pick([1, 1, 1, 1, -1, 2])
-    is_ring, gap = draft.chance(0.2), draft.rng.randrange(len(members)) if draft.chance(0.2) else None
+    by = draft.pick([1, 1, 1, 1, 1, -1, 2])
+    is_ring, gap = draft.chance(0.15), draft.rng.randrange(len(members)) if draft.chance(0.15) else None
     for index, member in enumerate(members):
         if (is_ring or 0 <= index + by < len(members)) and index != gap:
             table.values[(member, members[(index + by) % len(members)])] = "true"
@@ -80,5 +80,5 @@ def more(draft: Draft, carried, onward, number, target, share, feed, speed):
     put = real("(%s * (1 - %s) * %s)", is_here, rest, feed)
     if draft.chance(0.7):
         put = real("(%s + %s * %s * %s)", put, is_beside, rest, feed)
-    both = real(draft.pick(["(%s + %s)", "(%s + %s)", "(%s - %s)"]), *draft.pick([(put, onward), (onward, put)]))
-    return both if draft.chance(0.5) else draft.bounded(both)
+    both = real(draft.pick(["(%s + %s)", "(%s + %s)", "(%s - %s)"]), *draft.pick([(put, onward), (put, onward), (onward, put)]))
+    return both if draft.chance(0.75) else draft.bounded(both)
