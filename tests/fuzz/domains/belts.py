@@ -12,32 +12,33 @@ def add(draft: Draft) -> None:
     carried = draft.declare("carried", STATE, draft.pick(["real", "real", "real", "real", "int", "bool"]), belt, place)
     speed = draft.declare("speed", ACTION, "bool", belt, default="false")
     onward = moved(draft, place, after, carried)
-    target, share = where(draft, belt, place)
+    target, share = where(draft, belt, speed)
     feed = draft.bounded(draft.signed(draft.some_real({"?b": belt})))
     draft.define(carried, ("?b", "?p"), more(draft, carried, onward, number, target, share, feed, speed))
-    draft.earn(arriving(draft, belt, place, carried))
+    arrived = draft.interm("arrived", {"?b": belt}, arriving(draft, place, carried))
+    draft.earn(over("sum", "?b", belt, draft.at(arrived, "?b")))
     if draft.chance(0.5):
-        all_places = over("sum", "?p", place, draft.at(carried, "?b", "?p"))
+        all_places = over("sum", "?p", place, draft.at(carried, "?b", "?p", prime=draft.chance(0.8)))
         draft.earn(over(draft.pick(["max", "min"]), "?b", belt, real("(%s + 0.0)", all_places)))
     if draft.chance(0.2) and carried.range != "bool":
         draft.problem.invariants.append(over("forall", "?b", belt, over("forall", "?p", place, boolean("(%s >= -1000)", draft.at(carried, "?b", "?p")))))
 
 
-def arriving(draft: Draft, belt: str, place: str, carried):
-    """What lies on the head of each belt: one place, now and then others too."""
+def arriving(draft: Draft, place: str, carried):
+    """What lies on the head of a belt: one place, now and then others too."""
     head = draft.declare("HEAD", CONSTANT, "bool", place, default="false")
     for member in draft.problem.type(place).members[: draft.pick([1, 1, 1, 2])]:
         head.values[(member,)] = "true"
     here, what = draft.at(head, "?p"), draft.at(carried, "?b", "?p")
     if carried.range == "bool":
-        return over("sum", "?b", belt, over("exists", "?p", place, boolean("(%s ^ %s)", here, what)))
+        return over("exists", "?p", place, boolean("(%s ^ %s)", here, what))
     arrived = over("sum", "?p", place, real("(%s * %s)", here, what))
-    return over("sum", "?b", belt, draft.revealed(real("(%s * 1.0)", arrived)) if draft.chance(0.5) else arrived)
+    return draft.revealed(arrived) if draft.chance(0.5) else arrived
 
 
 def places(draft: Draft) -> str:
     name = draft.fresh("slot")
-    draft.problem.types.append(Type(name, False, [f"{name}-{i}" for i in range(draft.pick([1, 3, 6, 8, 9, 12, 13, 16, 17, 21]))]))
+    draft.problem.types.append(Type(name, False, [f"{name}-{i}" for i in range(draft.pick([1, 3, 8, 9, 12, 13, 16, 17, 21, 24]))]))
     return name
 
 
@@ -45,8 +46,8 @@ def chain(draft: Draft, place: str):
     """Each place and the one that comes to it: the next one, now and then the one before, in a ring, or with a gap."""
     table = draft.declare("AFTER", CONSTANT, "bool", place, place, default="false")
     members = draft.problem.type(place).members
-    by = draft.pick([1, 1, 1, 1, 1, -1, 2])
-    is_ring, gap = draft.chance(0.15), draft.rng.randrange(len(members)) if draft.chance(0.15) else None
+    by = draft.pick([1] * 8 + [-1, 2])
+    is_ring, gap = draft.chance(0.1), draft.rng.randrange(len(members)) if draft.chance(0.1) else None
     for index, member in enumerate(members):
         if (is_ring or 0 <= index + by < len(members)) and index != gap:
             table.values[(member, members[(index + by) % len(members)])] = "true"
@@ -61,9 +62,12 @@ def moved(draft: Draft, place: str, after, carried):
     return over("sum", "?o", place, of(carried.range, form, here, there))
 
 
-def where(draft: Draft, belt: str, place: str):
-    """The place of what is put down, and the share that falls beside it."""
-    way = real("abs[%s]", draft.bounded(draft.some_real({"?b": belt})))
+def where(draft: Draft, belt: str, speed):
+    """The place of what is put down, which moves on, and the share that falls beside it."""
+    reach = draft.declare("reach", STATE, "real", belt)
+    step = draft.pick(["1.25", "0.5", "-1.0", "3.0"])
+    draft.define(reach, ("?b",), draft.bounded(real(f"(%s + {step} * %s)", draft.at(reach, "?b"), draft.at(speed, "?b"))))
+    way = draft.at(reach, "?b") if draft.chance(0.5) else real("abs[%s]", draft.bounded(draft.some_real({"?b": belt})))
     target = draft.interm("target", {"?b": belt}, integer("floor[%s]", way))
     share = draft.interm("share", {"?b": belt}, real("(%s - %s)", way, draft.at(target, "?b")))
     return target, share
@@ -80,5 +84,5 @@ def more(draft: Draft, carried, onward, number, target, share, feed, speed):
     put = real("(%s * (1 - %s) * %s)", is_here, rest, feed)
     if draft.chance(0.7):
         put = real("(%s + %s * %s * %s)", put, is_beside, rest, feed)
-    both = real(draft.pick(["(%s + %s)", "(%s + %s)", "(%s - %s)"]), *draft.pick([(put, onward), (put, onward), (onward, put)]))
-    return both if draft.chance(0.75) else draft.bounded(both)
+    both = real(draft.pick(["(%s + %s)"] * 4 + ["(%s - %s)"]), *draft.pick([(put, onward)] * 3 + [(onward, put)]))
+    return both if draft.chance(0.85) else draft.bounded(both)
