@@ -18,7 +18,9 @@ std::optional<std::string> emitted_table(const Unit& unit, std::size_t index) {
     const ir::Fluent& fluent = unit.program.fluents[index];
     const bool is_rounded =
         fluent.scalar == ir::Scalar::Real && unit.program.real == RealType::Float;
-    if (!fluent.buffer || fluent.parameter_types.empty() || is_rounded) return std::nullopt;
+    if (!fluent.buffer || fluent.parameter_types.empty() || is_rounded ||
+        unit.left_out.contains(*fluent.buffer))
+        return std::nullopt;
     const ir::Buffer& buffer = unit.program[*fluent.buffer];
     const bool is_same = buffer.storage == ir::Storage::Constant &&
                          buffer.scalar == fluent.scalar && identical(buffer.values, fluent.values);

@@ -4,7 +4,6 @@
 #include "emit/cpp/print.hpp"
 #include "emit/lower/operators.hpp"
 #include "ir/layout.hpp"
-#include "ir/shifted_row.hpp"
 #include "support/match.hpp"
 
 #include <fmt/ranges.h>
@@ -13,7 +12,6 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
-#include <set>
 #include <string>
 
 namespace rddlc::cpp {
@@ -48,7 +46,7 @@ bool has_table(const Unit& unit, const std::string& name, const ir::Buffer& tabl
     for (std::size_t index = 0; index < unit.program.buffers.size(); ++index) {
         const bool is_named =
             unit.names.buffers[index] == name || unit.names.initial[index] == name;
-        if (!is_named) continue;
+        if (!is_named || unit.left_out.contains({static_cast<std::uint32_t>(index)})) continue;
         const ir::Buffer& buffer = unit.program.buffers[index];
         const bool is_same_type = table.scalar != ir::Scalar::Real || unit.program.real == real;
         return is_same_type && buffer.scalar == table.scalar && buffer.shape == table.shape &&
@@ -210,12 +208,11 @@ tree::Statement normals_of_step(const Unit& unit) {
 
 std::string tables(const Unit& unit, const Unit* around) {
     tree::Block definitions;
-    const std::set<ir::BufferId> unread = ir::read_by_shifts_alone(unit.program);
     for (std::size_t index = 0; index < unit.program.buffers.size(); ++index) {
         const ir::Buffer& buffer = unit.program.buffers[index];
         const std::string& initial = unit.names.initial[index];
         if (buffer.storage != ir::Storage::Constant && initial.empty()) continue;
-        if (unread.contains({static_cast<std::uint32_t>(index)})) continue;
+        if (unit.left_out.contains({static_cast<std::uint32_t>(index)})) continue;
         const std::string& name = initial.empty() ? unit.names.buffers[index] : initial;
         const RealType real = unit.program.real;
         // Episodes start in the program around.

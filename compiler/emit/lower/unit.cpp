@@ -4,6 +4,7 @@
 #include "ir/action_bools.hpp"
 #include "ir/lane_count.hpp"
 #include "ir/narrow_bits.hpp"
+#include "ir/shifted_row.hpp"
 #include "support/match.hpp"
 
 #include <algorithm>
@@ -45,6 +46,7 @@ Unit::Unit(const ir::Program& the_program, const Sources& the_sources,
       tests_action_bools(ir::tests_action_bools(the_program)),
       narrow_bits(has_packs() ? ir::narrow_bits(the_program, properties)
                               : std::vector<bool>(the_program.nodes.size(), false)),
+      left_out(ir::read_by_shifts_alone(the_program)),
       lone_series_(series_of_lone_draws()),
       chosen_series_(series_chosen_by_tables()) {
     for (std::size_t index = 0; index < program.nodes.size(); ++index) {

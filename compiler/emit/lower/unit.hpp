@@ -29,6 +29,7 @@ struct Unit {
     std::vector<bool> contains_branch;       // by NodeId: it branches, or has what does inside
     bool tests_action_bools;                 // ir/action_bools.hpp
     std::vector<bool> narrow_bits;           // by NodeId; ir/narrow_bits.hpp
+    std::set<ir::BufferId> left_out;         // tables that the text lacks; ir/shifted_row.hpp
 
     const ir::Properties& properties_of(ir::NodeId id) const { return properties[id.index]; }
 

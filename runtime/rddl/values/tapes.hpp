@@ -217,7 +217,8 @@ RDDL_INLINE void scatter_lanes(const Lanes<R, n>& values, Mask<n> mask,
 // Adds terms to elements of a row that was shifted: these are 0.0 + (term + term + element), with
 // 0.0 in place of the terms of other places.
 template <std::size_t row, class R, class... Terms>
-RDDL_INLINE void add_to_row(std::array<R, row>& elements, const NoTape&, const Terms&... terms) {
+requires std::is_arithmetic_v<R> RDDL_INLINE void add_to_row(std::array<R, row>& elements,
+                                                             const NoTape&, const Terms&... terms) {
     const auto is_there = [](std::int64_t place) RDDL_INLINE_LAMBDA {
         return static_cast<std::uint64_t>(place) < row;
     };
