@@ -1,9 +1,5 @@
 // Properties of whole emitted files. What they look like is shown by tests/cases and generated/.
-#include "check/check.hpp"
-#include "emit/emit.hpp"
-#include "ground/ground.hpp"
-#include "parse/parse.hpp"
-#include "passes/passes.hpp"
+#include "emitted.hpp"
 
 #include <gtest/gtest.h>
 
@@ -12,20 +8,6 @@
 
 namespace rddlc {
 namespace {
-
-std::string emitted(const std::string& text, const EmitOptions& options = {},
-                    const PassOptions& passes = {}, RealType real = RealType::Double) {
-    Sources sources;
-    Diagnostics diagnostics;
-    const FileId file = sources.add("problem.rddl", text);
-    const ast::Program tree = parse(sources, std::array{file}, diagnostics);
-    const auto model = check(tree, sources, diagnostics);
-    if (!model) throw std::logic_error(diagnostics.all().front().message);
-    ir::Program program = ground(*model, diagnostics).value();
-    program.real = real;
-    if (program.moderate) (*program.moderate)->real = real;
-    return emit(optimise(std::move(program), passes), sources, options);
-}
 
 // A problem over `count` objects whose non-fluent W has a different value for each.
 std::string problem(int count) {
@@ -64,30 +46,6 @@ std::size_t count(const std::string& text, const std::string& part) {
     std::size_t result = 0;
     for (std::size_t at = 0; (at = text.find(part, at)) != std::string::npos; ++at) ++result;
     return result;
-}
-
-// A belt whose items move by a place, and NUMBER says where the next one is put.
-std::string belt(int count) {
-    std::string objects, values;
-    for (int i = 0; i < count; ++i) {
-        objects += (i > 0 ? ", s" : "s") + std::to_string(i);
-        values += "NUMBER(s" + std::to_string(i) + ") = " + std::to_string(i + 1) + "; ";
-        if (i > 0) values += "AFTER(s" + std::to_string(i - 1) + ", s" + std::to_string(i) + "); ";
-    }
-    return "domain d { types { slot : object; }; pvariables {\n"
-           "AFTER(slot, slot) : { non-fluent, bool, default = false };\n"
-           "NUMBER(slot) : { non-fluent, int, default = 0 };\n"
-           "item(slot) : { state-fluent, real, default = 0.0 };\n"
-           "due : { state-fluent, int, default = 3 };\n"
-           "put : { action-fluent, real, default = 0.5 };\n"
-           "}; cpfs { due' = due;\n"
-           "item'(?s) = (NUMBER(?s) == due) * 0.5 * put + (sum_{?n : slot} [AFTER(?s, ?n) * "
-           "item(?n)]);\n"
-           "}; reward = put; }\n"
-           "non-fluents n { domain = d; objects { slot : {" +
-           objects + "}; }; non-fluents { " + values +
-           "}; }\n"
-           "instance i { domain = d; non-fluents = n; horizon = 5; discount = 1.0; }\n";
 }
 
 TEST(EmittedText, IsTheSameEveryTime) {
@@ -399,15 +357,6 @@ TEST(EmittedText, IndexesByLanesWhatAnAggregationChooses) {
     const std::string result = emitted(text, {}, passes);
     EXPECT_EQ(count(result, "rddl::at(W_, best)"), 1u) << functions(result);
     EXPECT_EQ(count(result, "W_[best]"), 0u);
-}
-
-TEST(EmittedText, DescribesConstantsThatNoStepReads) {
-    PassOptions passes;
-    passes.fast_math = true;
-    const std::string text = emitted(belt(12), {}, passes);
-    EXPECT_NE(text.find("rddl::shift<"), std::string::npos);
-    EXPECT_NE(text.find("NUMBER_values_ = {"), std::string::npos);
-    EXPECT_NE(text.find("rddl::constants(1, NUMBER_values_)"), std::string::npos);
 }
 
 }  // namespace
