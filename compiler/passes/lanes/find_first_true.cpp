@@ -83,7 +83,7 @@ void store_bools(ir::Program& program, ir::Block& block, const std::set<ir::Buff
     }
 }
 
-// The number of bits below the lowest one that is 1, of so many; 0 if there is none. The last mask
+// The number of bits below the lowest one that is 1, of so many; 0 if all bits are 0. The last mask
 // shows how many these may be.
 ir::NodeId place_of_lowest(ir::Builder& builder, ir::NodeId bits, std::int64_t count) {
     const auto constant = [&](std::int64_t value) {

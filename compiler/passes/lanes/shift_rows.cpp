@@ -41,7 +41,7 @@ class Shifting {
     }
 
   private:
-    // The loop that shifts, in the definition of this number; null if there is none, or if it is
+    // The loop that shifts, in the definition of this number; null if no loop does, or if it is
     // marked.
     ir::Loop* loop_of(std::size_t k) {
         ir::Definition& definition = program_.step[k];
