@@ -11,10 +11,6 @@
 namespace rddlc::checking {
 namespace {
 
-bool is_bool_reduction(Reduction op) {
-    return op == Reduction::ForAll || op == Reduction::Exists;
-}
-
 bool is_arg_reduction(Reduction op) {
     return op == Reduction::ArgMin || op == Reduction::ArgMax;
 }
@@ -67,7 +63,7 @@ void warn_of_unused_variables(const std::vector<model::VariableId>& variables,
 
 Typed check_body(Reduction op, Typed body, const ast::Name& name, Scope& scope) {
     const std::string what = fmt::format("the body of '{}'", name.text);
-    if (is_bool_reduction(op)) {
+    if (is_quantifier(op)) {
         Need need{model::bool_type, what, bool_needed};
         if (body && body->type != need.type) need.hint = hint_for_number_as_body(*body, scope);
         return require(std::move(body), need, scope);

@@ -394,7 +394,7 @@ ir::NodeId Lowering::lower(const model::Aggregate& form, const model::Expr& expr
 
 // One reduction for each variable, the last one innermost. Bools are counted as 0 and 1.
 ir::NodeId Lowering::loops_over(const model::Aggregate& form, Reduction op, ir::NodeId body) {
-    const bool of_bools = op == Reduction::ForAll || op == Reduction::Exists;
+    const bool of_bools = is_quantifier(op);
     if (!of_bools && program_[body].type == ir::Scalar::Bool) {
         body = builder_.convert(body, ir::Scalar::Int);
     }

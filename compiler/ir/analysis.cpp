@@ -367,6 +367,19 @@ std::vector<AnyDefinition*> definitions_in(AnyProgram& program) {
     return definitions;
 }
 
+// The reward, then the conditions. Program and Computation both const, or neither.
+template <class AnyComputation, class AnyProgram>
+std::vector<Named<AnyComputation>> computations_in(AnyProgram& program) {
+    std::vector<Named<AnyComputation>> computations{{"reward", &program.reward}};
+    const auto append = [&](const char* name, auto& conditions) {
+        for (auto& condition : conditions) computations.push_back({name, &condition});
+    };
+    append("precondition", program.preconditions);
+    append("invariant", program.invariants);
+    append("termination", program.terminations);
+    return computations;
+}
+
 bool draws(const Block& block, const std::vector<Properties>& properties) {
     bool draws = std::ranges::any_of(roots_of(block),
                                      [&](NodeId root) { return properties[root.index].random; });
@@ -494,15 +507,19 @@ std::vector<Definition*> definitions_of(Program& program) {
     return definitions_in<Definition>(program);
 }
 
+std::vector<Named<const Computation>> computations_of(const Program& program) {
+    return computations_in<const Computation>(program);
+}
+std::vector<Named<Computation>> computations_of(Program& program) {
+    return computations_in<Computation>(program);
+}
+
 std::vector<const Block*> blocks_of(const Program& program) {
     std::vector<const Block*> blocks;
     for (const Definition* definition : definitions_of(program))
         blocks.push_back(&definition->body);
-    blocks.push_back(&program.reward.body);
-    for (const auto* conditions :
-         {&program.preconditions, &program.invariants, &program.terminations}) {
-        for (const Computation& condition : *conditions) blocks.push_back(&condition.body);
-    }
+    for (const auto& [name, computation] : computations_of(program))
+        blocks.push_back(&computation->body);
     return blocks;
 }
 
@@ -640,10 +657,8 @@ std::vector<NodeId> roots_of(const Program& program) {
     std::vector<NodeId> roots;
     for (const Definition* definition : definitions_of(program))
         append_roots(definition->body, roots);
-    append_roots(program.reward, roots);
-    for (const Computation& condition : program.preconditions) append_roots(condition, roots);
-    for (const Computation& condition : program.invariants) append_roots(condition, roots);
-    for (const Computation& condition : program.terminations) append_roots(condition, roots);
+    for (const auto& [name, computation] : computations_of(program))
+        append_roots(*computation, roots);
     return roots;
 }
 

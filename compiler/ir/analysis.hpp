@@ -63,6 +63,12 @@ bool any_node_of(const Program& program, NodeId id, const Has& has) {
                return any_node_of(program, operand, has);
            });
 }
+// Whether the node or one below it is of this form.
+template <class Form>
+bool contains(const Program& program, NodeId id) {
+    return any_node_of(
+        program, id, [&](NodeId each) { return std::holds_alternative<Form>(program[each].form); });
+}
 // Whether the node or one below it reads the buffer.
 bool reads(const Program& program, NodeId id, BufferId buffer);
 // The only draw of the node and those below it; nothing if there are others, or if it is no
@@ -101,6 +107,15 @@ const Load* row_of(const Program& program, const Bounds& bounds);
 // The definitions of reset, of the step and of the policy.
 std::vector<const Definition*> definitions_of(const Program& program);
 std::vector<Definition*> definitions_of(Program& program);
+
+// The reward and all conditions, each with its name in messages and in names of tables.
+template <class Of>
+struct Named {
+    const char* name;
+    Of* computation;
+};
+std::vector<Named<const Computation>> computations_of(const Program& program);
+std::vector<Named<Computation>> computations_of(Program& program);
 
 // The statements of every definition and computation.
 std::vector<const Block*> blocks_of(const Program& program);

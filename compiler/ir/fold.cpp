@@ -91,7 +91,7 @@ std::optional<Value> fold(Operator op, std::span<const Value> operands) {
 }
 
 std::optional<Value> fold(Reduction op, std::int64_t size, const Value& body) {
-    if (op == Reduction::ForAll || op == Reduction::Exists) return body;
+    if (is_quantifier(op)) return body;
     return match(
         body, [](bool) { return std::optional<Value>(); },
         [&](auto value) { return fold_numeric(op, size, value); });

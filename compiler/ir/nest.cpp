@@ -42,9 +42,12 @@ Nest nest_of(const Loop& outermost) {
     return nest;
 }
 
-Block& innermost_body(Loop& outermost) {
+Loop& innermost_loop(Loop& outermost) {
     auto* const inner = only_statement<Loop>(outermost.body);
-    return inner ? innermost_body(*inner) : outermost.body;
+    return inner ? innermost_loop(*inner) : outermost;
+}
+Block& innermost_body(Loop& outermost) {
+    return innermost_loop(outermost).body;
 }
 
 Block looped(Block body, const std::vector<VariableId>& variables) {

@@ -31,6 +31,7 @@ struct Nest {
     const Block* body;                  // of the innermost loop
 };
 Nest nest_of(const Loop& outermost);
+Loop& innermost_loop(Loop& outermost);
 Block& innermost_body(Loop& outermost);
 // The reverse of nest_of: loops over these variables, outermost first, around a body; without any,
 // the body.

@@ -6,7 +6,7 @@
 namespace rddlc::ir {
 
 std::optional<SplitQuantifier> split_quantifier(Builder& builder, const Reduce& reduce) {
-    if (reduce.op != Reduction::Exists && reduce.op != Reduction::ForAll) return std::nullopt;
+    if (!is_quantifier(reduce.op)) return std::nullopt;
     SplitQuantifier split{
         reduce.op == Reduction::Exists ? Operator::And : Operator::Or, {}, reduce};
     std::vector<NodeId> inside;

@@ -353,7 +353,7 @@ class Verifier {
         if (form.bounds && !are_uniform_ints(*form.bounds)) return false;
         if (form.over_true && !row_of_bools(program_, form) && !table_of_bools(program_, form))
             return false;
-        const bool quantifies = form.op == Reduction::ForAll || form.op == Reduction::Exists;
+        const bool quantifies = is_quantifier(form.op);
         if (form.several_at_once && (!quantifies || form.bounds)) return false;
         const bool empty = program_[form.variable].size == 0 || form.bounds;
         switch (form.op) {

@@ -98,6 +98,9 @@ enum class Reduction : std::uint8_t {
     ArgMin,
     ArgMax,
 };
+constexpr bool is_quantifier(Reduction op) {
+    return op == Reduction::ForAll || op == Reduction::Exists;
+}
 
 // Distributions with plain parameters; Discrete has nodes of its own.
 enum class Distribution : std::uint8_t {

@@ -171,7 +171,7 @@ class BitCounting {
         const Levels nest = levels_of(id);
         if (nest.reduces.empty() || builder_.properties(nest.term).may_fault) return std::nullopt;
         const Reduction op = nest.reduces.front().op;
-        if (op != Reduction::ForAll && op != Reduction::Exists) return std::nullopt;
+        if (!is_quantifier(op)) return std::nullopt;
         const Operator connective = op == Reduction::ForAll ? Operator::Or : Operator::And;
         std::vector<ir::NodeId> same, rest;
         for (const ir::NodeId part : ir::parts_of(program_, nest.term, connective))
@@ -218,8 +218,7 @@ class BitCounting {
             if (!convert || program_[id].type != ir::Scalar::Int) return std::nullopt;
             nest.condition = convert->operand;
         }
-        const bool is_of_bools = nest.op == Reduction::Sum || nest.op == Reduction::Exists ||
-                                 nest.op == Reduction::ForAll;
+        const bool is_of_bools = nest.op == Reduction::Sum || is_quantifier(nest.op);
         if (!is_of_bools || program_[nest.condition].type != ir::Scalar::Bool) return std::nullopt;
         return nest;
     }

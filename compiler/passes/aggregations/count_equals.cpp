@@ -62,10 +62,8 @@ class EqualCounting {
         for (ir::Definition* definition : ir::definitions_of(program_))
             change(program_[definition->target].name, definition->span,
                    [&](const auto& change) { ir::change_roots(definition->body, change); });
-        change(program_.reward, "reward");
-        for (auto& condition : program_.preconditions) change(condition, "precondition");
-        for (auto& condition : program_.invariants) change(condition, "invariant");
-        for (auto& condition : program_.terminations) change(condition, "termination");
+        for (const auto& [name, computation] : ir::computations_of(program_))
+            change(*computation, name);
         return ir::collect_garbage(std::move(program_));
     }
 
@@ -117,8 +115,7 @@ class EqualCounting {
 
     std::optional<Wanted> wanted_by(ir::NodeId id) {
         const auto nest = ir::reduction_nest(program_, id);
-        if (!nest || (nest->op != Reduction::Exists && nest->op != Reduction::ForAll) ||
-            !ir::is_droppable(builder_.properties(nest->body)))
+        if (!nest || !is_quantifier(nest->op) || !ir::is_droppable(builder_.properties(nest->body)))
             return std::nullopt;
         const auto wanted = parts_wanted_by(*nest);
         return wanted && can_be_counted(*wanted) ? wanted : std::nullopt;

@@ -95,7 +95,7 @@ class ValueCounting {
                      objects, reduce.op};
     }
     std::optional<ir::NodeId> test_of(const ir::Reduce& reduce) const {
-        if (reduce.op == Reduction::Exists || reduce.op == Reduction::ForAll) return reduce.body;
+        if (is_quantifier(reduce.op)) return reduce.body;
         if (reduce.op != Reduction::Sum || program_[reduce.body].type != ir::Scalar::Int)
             return std::nullopt;
         return ir::converted_bool(program_, reduce.body);

@@ -69,10 +69,8 @@ class Rewriting {
         for (ir::Definition* definition : ir::definitions_of(program_)) {
             rewrite(definition->body, program_[definition->target].name, definition->span);
         }
-        rewrite(program_.reward, "reward");
-        for (auto& condition : program_.preconditions) rewrite(condition, "precondition");
-        for (auto& condition : program_.invariants) rewrite(condition, "invariant");
-        for (auto& condition : program_.terminations) rewrite(condition, "termination");
+        for (const auto& [name, computation] : ir::computations_of(program_))
+            rewrite(*computation, name);
         return ir::collect_garbage(std::move(program_));
     }
 
@@ -293,7 +291,7 @@ class Rewriting {
     // A forall that constants make false for one object at least, whatever its row; an exists that
     // they make true.
     std::optional<ir::NodeId> decided_by_constants(const ir::ReductionNest& nest, Scope& outer) {
-        if (nest.op != Reduction::ForAll && nest.op != Reduction::Exists) return std::nullopt;
+        if (!is_quantifier(nest.op)) return std::nullopt;
         if (!ir::is_droppable(builder_.properties(nest.body))) return std::nullopt;
         const bool decisive = nest.op == Reduction::Exists;
         const std::optional<Relation> undecided = pattern_.of(nest.body, decisive);

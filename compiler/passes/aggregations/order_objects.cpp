@@ -36,8 +36,7 @@ class Ordering {
 
     std::optional<ir::NodeId> ordered(ir::NodeId id) {
         const auto nest = ir::reduction_nest(program_, id);
-        if (!nest || (nest->op != Reduction::ForAll && nest->op != Reduction::Exists) ||
-            !ir::is_droppable(builder_.properties(nest->body)))
+        if (!nest || !is_quantifier(nest->op) || !ir::is_droppable(builder_.properties(nest->body)))
             return std::nullopt;
         Predecessors before(nest->variables.size());
         for (std::size_t j = 1; j < before.size(); ++j) before[j] = last_exchanged(*nest, j);

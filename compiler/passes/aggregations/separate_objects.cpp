@@ -52,8 +52,7 @@ class Separation {
 
     std::optional<ir::NodeId> separated(ir::NodeId id) {
         const auto nest = ir::reduction_nest(program_, id);
-        if (!nest || (nest->op != Reduction::Exists && nest->op != Reduction::ForAll) ||
-            !ir::is_droppable(builder_.properties(nest->body)))
+        if (!nest || !is_quantifier(nest->op) || !ir::is_droppable(builder_.properties(nest->body)))
             return std::nullopt;
         const Operators operators = operators_of(nest->op);
         Parts results;

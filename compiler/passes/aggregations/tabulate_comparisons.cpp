@@ -44,8 +44,8 @@ class ComparisonTables {
     std::optional<ir::NodeId> with_tables_in_rows(ir::NodeId id, ir::Block& before) {
         const auto* reduce = std::get_if<ir::Reduce>(&program_[id].form);
         if (!reduce) return std::nullopt;
-        const bool is_row = (reduce->op == Reduction::Exists || reduce->op == Reduction::ForAll) &&
-                            !builder_.properties(id).free_variables.empty();
+        const bool is_row =
+            is_quantifier(reduce->op) && !builder_.properties(id).free_variables.empty();
         return is_row ? with_tables(id, before) : id;
     }
 

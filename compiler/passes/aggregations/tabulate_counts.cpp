@@ -48,10 +48,8 @@ class CountTabulation {
     ir::Program run() && {
         for (ir::Definition* definition : ir::definitions_of(program_))
             change(definition->body, program_[definition->target].name, definition->span);
-        change(program_.reward, "reward");
-        for (auto& condition : program_.preconditions) change(condition, "precondition");
-        for (auto& condition : program_.invariants) change(condition, "invariant");
-        for (auto& condition : program_.terminations) change(condition, "termination");
+        for (const auto& [name, computation] : ir::computations_of(program_))
+            change(*computation, name);
         return ir::collect_garbage(std::move(program_));
     }
 

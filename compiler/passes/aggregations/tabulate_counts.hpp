@@ -14,8 +14,8 @@
 //     select(state.phase == 0, 1, select(state.phase == 1, 2, ...)) => phase-by-phase[state.phase]
 //     int(state.die == 0) + 2 * int(state.die == 1) + ...           => value-by-die[state.die]
 //
-// Reals and ints only, and only where no entry faults and enough work is saved for the size of the
-// table.
+// Only where no entry faults and enough work is saved for the size of the table. A bool becomes a
+// comparison instead, if the counts for which it is true lie beside each other.
 #pragma once
 
 #include "ir/ir.hpp"

@@ -56,11 +56,8 @@ ir::NodeId value_of_counted(ir::Builder& builder, ir::Program& program, ir::Node
 
 bool is_countable(const ir::Builder& builder, ir::NodeId value) {
     const ir::Program& program = builder.program();
-    const auto aggregates = [&](ir::NodeId id) {
-        return std::holds_alternative<ir::Reduce>(program[id].form);
-    };
     return program[value].type == ir::Scalar::Int && !builder.properties(value).uniform &&
-           !ir::any_node_of(program, value, aggregates);
+           !ir::contains<ir::Reduce>(program, value);
 }
 
 std::optional<ValueCounts> count_values(ir::Builder& builder, ir::VariableId object,

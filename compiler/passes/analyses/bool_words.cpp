@@ -48,11 +48,8 @@ bool is_constant_probability(const ir::Program& program, ir::NodeId id, const ir
 
 template <class Form>
 bool has(const ir::Program& program, const ir::Block& body) {
-    return std::ranges::any_of(ir::roots_of(body), [&](ir::NodeId root) {
-        return ir::any_node_of(program, root, [&](ir::NodeId id) {
-            return std::holds_alternative<Form>(program[id].form);
-        });
-    });
+    return std::ranges::any_of(ir::roots_of(body),
+                               [&](ir::NodeId root) { return ir::contains<Form>(program, root); });
 }
 
 }  // namespace
@@ -96,9 +93,7 @@ bool is_of_bools(const ir::Program& program, ir::NodeId id, const ir::Nest& nest
                    is_constant_probability(program, sample.parameters.front(), nest);
         },
         [&](const ir::Reduce& reduce) {
-            const bool quantifies =
-                reduce.op == Reduction::Exists || reduce.op == Reduction::ForAll;
-            return quantifies && !reduce.bounds && are_of_bools({reduce.body});
+            return is_quantifier(reduce.op) && !reduce.bounds && are_of_bools({reduce.body});
         },
         [](const auto&) { return false; });
 }

@@ -34,10 +34,8 @@ class ConstantTabulation {
     std::map<ir::NodeId, Table> run() && {
         for (const ir::Definition* definition : ir::definitions_of(std::as_const(program_)))
             visit(definition->body, program_[definition->target].name, definition->span);
-        visit(program_.reward, "reward");
-        for (const auto& condition : program_.preconditions) visit(condition, "precondition");
-        for (const auto& condition : program_.invariants) visit(condition, "invariant");
-        for (const auto& condition : program_.terminations) visit(condition, "termination");
+        for (const auto& [name, computation] : ir::computations_of(std::as_const(program_)))
+            visit(*computation, name);
         return std::move(tables_);
     }
 

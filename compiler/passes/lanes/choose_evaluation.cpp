@@ -83,8 +83,7 @@ class Gathering {
         const auto* reduce = std::get_if<ir::Reduce>(&program_[id].form);
         if (reduce && reduce->several_at_once) return id;
         const auto nest = ir::reduction_nest(program_, id);
-        if (!nest || (nest->op != Reduction::Exists && nest->op != Reduction::ForAll) ||
-            ir::common_rows(program_, *reduce))
+        if (!nest || !is_quantifier(nest->op) || ir::common_rows(program_, *reduce))
             return std::nullopt;
         const ir::Nest objects{nest->variables, nullptr};
         const ObjectLanes several(

@@ -83,10 +83,7 @@ class Drawing {
         return sample && sample->distribution == Distribution::Bernoulli &&
                !builder_.properties(id).may_fault &&
                ir::is_place_in(program_, nest, sample->place.index) &&
-               !ir::any_node_of(program_, id, [&](ir::NodeId each) {
-                   return std::holds_alternative<ir::Local>(program_[each].form) ||
-                          std::holds_alternative<ir::Reduce>(program_[each].form);
-               });
+               !ir::contains<ir::Local>(program_, id) && !ir::contains<ir::Reduce>(program_, id);
     }
 
     ir::Program program_;

@@ -93,14 +93,9 @@ class Keeping {
                                    program_[value].type != ir::Scalar::Bool;
         double at_once = are_few_draws ? 1 : ir::iterations_at_once(loop);
         // Words of each term of an aggregation are loads, which take longer than connectives.
-        if (loop.as_words && aggregates(value)) at_once = ir::objects_at_once;
+        if (loop.as_words && ir::contains<ir::Reduce>(program_, value))
+            at_once = ir::objects_at_once;
         return std::ceil(static_cast<double>(objects) / at_once) * properties.cost;
-    }
-
-    bool aggregates(ir::NodeId value) const {
-        return ir::any_node_of(program_, value, [&](ir::NodeId id) {
-            return std::holds_alternative<ir::Reduce>(program_[id].form);
-        });
     }
 
     // Remembers the values of the Lets. A fault of one must not disappear with the loop.

@@ -141,8 +141,7 @@ class PlaceReading {
     // The terms of an exists or forall over few entries.
     std::optional<ir::NodeId> spread_out(ir::NodeId id) {
         const auto* found = std::get_if<ir::Reduce>(&program_[id].form);
-        if (!found || (found->op != Reduction::Exists && found->op != Reduction::ForAll))
-            return std::nullopt;
+        if (!found || !is_quantifier(found->op)) return std::nullopt;
         const ir::Reduce reduce = *found;
         const std::vector<Entry> entries = entries_of(reduce);
         if (entries.empty()) return std::nullopt;

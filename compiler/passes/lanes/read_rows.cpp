@@ -24,14 +24,8 @@ constexpr std::int64_t most_elements = 1 << 12;
 
 using Variables = std::vector<ir::VariableId>;
 
-bool is_quantifier(const ir::Reduce& reduce) {
-    return (reduce.op == Reduction::Exists || reduce.op == Reduction::ForAll) && !reduce.bounds &&
-           !reduce.over_true;
-}
-
-ir::Loop& innermost_loop(ir::Loop& outermost) {
-    auto* const inner = ir::only_statement<ir::Loop>(outermost.body);
-    return inner ? innermost_loop(*inner) : outermost;
+bool is_plain_quantifier(const ir::Reduce& reduce) {
+    return is_quantifier(reduce.op) && !reduce.bounds && !reduce.over_true;
 }
 
 class RowReading {
@@ -72,7 +66,7 @@ class RowReading {
             !several(nest_).can_store_in_row(ir::Store{store->target, store->indices, value}))
             return;
         store->value = value;
-        ir::Loop& innermost = innermost_loop(outermost);
+        ir::Loop& innermost = ir::innermost_loop(outermost);
         innermost.several_at_once = innermost.as_words = true;
         ++report_["loops that read bools in rows"];
     }
@@ -94,7 +88,7 @@ class RowReading {
     // The variables of the aggregations; false if there are others than quantifiers.
     bool collect_terms(ir::NodeId id) {
         const auto* reduce = std::get_if<ir::Reduce>(&program_[id].form);
-        if (reduce && !is_quantifier(*reduce)) return false;
+        if (reduce && !is_plain_quantifier(*reduce)) return false;
         if (reduce) terms_.push_back(reduce->variable);
         return std::ranges::all_of(ir::operands_of(program_[id]),
                                    [&](ir::NodeId operand) { return collect_terms(operand); });
