@@ -26,6 +26,13 @@ ObjectLanes::ObjectLanes(const ir::Program& program, PropertiesOf properties_of,
       nest_(std::move(nest)),
       is_element_(std::move(is_element)) {}
 
+ObjectLanes::ObjectLanes(const ir::Builder& builder, ir::Nest nest,
+                         std::function<bool(ir::NodeId)> is_element)
+    : ObjectLanes(
+          builder.program(),
+          [&builder](ir::NodeId id) -> const ir::Properties& { return builder.properties(id); },
+          std::move(nest), std::move(is_element)) {}
+
 bool ObjectLanes::are_enough(ir::Scalar scalar) const {
     return ir::combinations(program_, nest_.variables) >=
            (scalar == ir::Scalar::Bool ? fewest_bools : fewest_iterations);

@@ -5,6 +5,7 @@
 #pragma once
 
 #include "ir/analysis.hpp"
+#include "ir/builder.hpp"
 #include "ir/ir.hpp"
 #include "ir/nest.hpp"
 
@@ -20,6 +21,9 @@ class ObjectLanes {
 
     // `is_element` says which nodes will become elements of tables.
     ObjectLanes(const ir::Program& program, PropertiesOf properties_of, ir::Nest nest,
+                std::function<bool(ir::NodeId)> is_element = nullptr);
+    // The program is being built, so properties are asked of the builder.
+    ObjectLanes(const ir::Builder& builder, ir::Nest nest,
                 std::function<bool(ir::NodeId)> is_element = nullptr);
 
     // Too few iterations, which give such values, do not fill the registers.

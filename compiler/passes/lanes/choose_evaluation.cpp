@@ -86,10 +86,7 @@ class Gathering {
         if (!nest || !is_quantifier(nest->op) || ir::common_rows(program_, *reduce))
             return std::nullopt;
         const ir::Nest objects{nest->variables, nullptr};
-        const ObjectLanes several(
-            program_,
-            [&](ir::NodeId each) -> const ir::Properties& { return builder_.properties(each); },
-            objects);
+        const ObjectLanes several(builder_, objects);
         if (!several.are_enough(ir::Scalar::Real) || !several.can_evaluate(nest->body) ||
             !ir::is_droppable(builder_.properties(nest->body)) ||
             (!is_condition && chooses_elements(nest->body, objects)))

@@ -62,10 +62,8 @@ class PlaceReading {
                                           [&](ir::NodeId id) { return spread_out(id); });
         if (terms_ > most_terms) value = store->value;
         const ir::Store changed{store->target, store->indices, value};
-        const ObjectLanes several(
-            program_,
-            [&](ir::NodeId id) -> const ir::Properties& { return builder_.properties(id); }, nest_,
-            [&](ir::NodeId id) { return is_chosen(id) || is_known(id); });
+        const ObjectLanes several(builder_, nest_,
+                                  [&](ir::NodeId id) { return is_chosen(id) || is_known(id); });
         const bool is_possible = several.are_enough(ir::Scalar::Bool) &&
                                  several.can_store(changed) && !looks_up_bools(value);
         if (!is_possible) return;

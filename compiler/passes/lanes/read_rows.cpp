@@ -72,11 +72,7 @@ class RowReading {
     }
     static constexpr ir::Scalar bools = ir::Scalar::Bool;
 
-    ObjectLanes several(const ir::Nest& nest) const {
-        return {program_,
-                [&](ir::NodeId id) -> const ir::Properties& { return builder_.properties(id); },
-                nest};
-    }
+    ObjectLanes several(const ir::Nest& nest) const { return {builder_, nest}; }
     // Several objects at once already, those of the innermost loops or of all.
     bool is_possible(const ir::Loop& loop, const ir::Store& store) const {
         const ObjectLanes objects = several(ir::nest_of(loop));

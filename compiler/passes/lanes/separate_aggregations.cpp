@@ -200,9 +200,7 @@ class Separation {
     }
 
     ObjectLanes several_of(const ir::Nest& nest, std::function<bool(ir::NodeId)> is_element) const {
-        return {program_,
-                [&](ir::NodeId id) -> const ir::Properties& { return builder_.properties(id); },
-                nest, std::move(is_element)};
+        return {builder_, nest, std::move(is_element)};
     }
 
     ir::Program program_;

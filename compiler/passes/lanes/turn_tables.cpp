@@ -107,10 +107,7 @@ class Turning {
         move_to_end(variables, axis);
         const ir::Properties properties = builder_.properties(plain->value);
         const ir::Nest innermost{{variables.back()}, nullptr};
-        const ObjectLanes several(
-            program_,
-            [&](ir::NodeId id) -> const ir::Properties& { return builder_.properties(id); },
-            innermost);
+        const ObjectLanes several(builder_, innermost);
         if (properties.random || properties.may_fault || !several.are_enough(ir::Scalar::Bool) ||
             !several.can_evaluate(plain->value))
             return;

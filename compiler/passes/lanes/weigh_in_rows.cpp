@@ -180,10 +180,7 @@ class WeightRows {
     }
 
     bool fits_lanes(const ir::Store& row) const {
-        const ObjectLanes several(
-            program_,
-            [&](ir::NodeId id) -> const ir::Properties& { return builder_.properties(id); },
-            ir::Nest{{choice_}, nullptr});
+        const ObjectLanes several(builder_, ir::Nest{{choice_}, nullptr});
         return several.can_store_in_row(row);
     }
 

@@ -164,10 +164,6 @@ RDDL_INLINE Real with_terms(const Int& place, const Real& element, const Terms&.
     return Real(0.0) + (sum + element);
 }
 
-}  // namespace detail
-
-namespace detail {
-
 // The places of the lanes of elements that differ between the lanes, one real after the other.
 template <int n>
 inline constexpr auto lane_places = [] {
