@@ -158,7 +158,7 @@ Expression Expressions::lower(const ir::Node&, const ir::Element& element) {
 }
 
 Expression Expressions::lower(const ir::Node&, const ir::Bits& bits) {
-    return bits_of(bits, "");
+    return bits_of(bits, unit_.has_byte_ints() ? "byte_" : "");
 }
 // "rddl::bits(state.on)", "rddl::narrow_action_bits(action.move[x])"
 Expression Expressions::bits_of(const ir::Bits& bits, std::string_view kind) {

@@ -44,8 +44,9 @@ Unit::Unit(const ir::Program& the_program, const Sources& the_sources,
       uniform_ints(the_program.nodes.size(), false),
       contains_branch(the_program.nodes.size(), false),
       tests_action_bools(ir::tests_action_bools(the_program)),
-      narrow_bits(has_packs() ? ir::narrow_bits(the_program, properties)
-                              : std::vector<bool>(the_program.nodes.size(), false)),
+      narrow_bits(has_packs() && !has_byte_ints()
+                      ? ir::narrow_bits(the_program, properties)
+                      : std::vector<bool>(the_program.nodes.size(), false)),
       left_out(ir::read_by_shifts_alone(the_program)),
       lone_series_(series_of_lone_draws()),
       chosen_series_(series_chosen_by_tables()) {

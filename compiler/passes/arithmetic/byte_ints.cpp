@@ -1,6 +1,7 @@
 #include "passes/arithmetic/byte_ints.hpp"
 
 #include "ir/analysis.hpp"
+#include "ir/lane_count.hpp"
 #include "ir/table_properties.hpp"
 #include "passes/arithmetic/find_ranges.hpp"
 #include "support/match.hpp"
@@ -11,6 +12,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <map>
 #include <optional>
 #include <set>
 #include <utility>
@@ -20,6 +22,7 @@ namespace rddlc::passes {
 namespace {
 
 constexpr Range byte{-128, 127};
+constexpr std::int64_t most_bools = 7;  // of a word that is a byte
 
 bool is_within(const Range& inner, const Range& outer) {
     return inner.lower >= outer.lower && inner.upper <= outer.upper;
@@ -67,11 +70,57 @@ bool enter_next_states(ir::Program& program) {
     return true;
 }
 
+// The powers of two that bound both also bound what bit operations make of them.
+Range range_of_bits(const Range& a, const Range& b) {
+    const double least = std::min(a.lower, b.lower), greatest = std::max(a.upper, b.upper);
+    double limit = 1;
+    while (least < -limit || greatest >= limit) limit *= 2;
+    return {least < 0 ? -limit : 0, limit - 1};
+}
+std::optional<Range> range_of_bits(const ir::Program& program, const ir::Bits& bits) {
+    const std::int64_t count = program[bits.buffer].row_size(bits.indices.size()) - bits.first;
+    if (count > most_bools) return std::nullopt;
+    return Range{0, static_cast<double>((1 << count) - 1)};
+}
+std::optional<Range> range_of_bits(const std::vector<ir::Properties>& properties,
+                                   const ir::Apply& apply) {
+    if (!is_one_of(apply.op, {Operator::BitAnd, Operator::BitOr, Operator::BitXor}))
+        return std::nullopt;
+    const auto& a = properties[apply.operands[0].index].range;
+    const auto& b = properties[apply.operands[1].index].range;
+    if (a && b && is_within(*a, byte) && is_within(*b, byte)) return range_of_bits(*a, *b);
+    return std::nullopt;
+}
+
+// As all_properties, with ranges of words of few bools and of names too.
+std::vector<ir::Properties> properties_with_bits(const ir::Program& program) {
+    std::map<ir::LocalId, ir::NodeId> values;
+    for (const ir::Block* block : ir::blocks_of(program))
+        ir::for_each_statement<ir::Let>(
+            *block, [&](const ir::Let& let) { values.emplace(let.local, let.value); });
+    ir::TableProperties tables;
+    std::vector<ir::Properties> all;
+    all.reserve(program.nodes.size());
+    for (const ir::Node& node : program.nodes) {
+        ir::Properties own = ir::properties_of(program, node, all, tables);
+        if (node.type == ir::Scalar::Int && !own.range)
+            own.range = match(
+                node.form, [&](const ir::Bits& bits) { return range_of_bits(program, bits); },
+                [&](const ir::Apply& apply) { return range_of_bits(all, apply); },
+                [&](const ir::Local& local) { return all.at(values.at(local.local).index).range; },
+                [](const auto&) { return std::optional<Range>(); });
+        all.push_back(std::move(own));
+    }
+    return all;
+}
+
 // Whether what is evaluated below some nodes can be evaluated with byte ints.
 class ByteInts {
   public:
     explicit ByteInts(const ir::Program& program)
-        : program_(program), properties_(ir::all_properties(program)) {}
+        : program_(program),
+          properties_(properties_with_bits(program)),
+          words_gain_(ir::suitable_lane_count(program) == ir::suitable_lane_counts.back()) {}
 
     bool are_enough_for(const std::vector<ir::NodeId>& roots) {
         return std::ranges::all_of(roots, [&](ir::NodeId root) { return are_enough_below(root); });
@@ -98,8 +147,11 @@ class ByteInts {
         return match(
             node.form,
             [&](const ir::Load& load) {
-                return std::ranges::all_of(load.indices, [&](auto k) { return is_uniform(k); });
+                return std::ranges::all_of(load.indices, [&](auto k) {
+                    return is_uniform(k) || (fits(k) && has_bytes_as_indices(load));
+                });
             },
+            [&](const ir::Bits&) { return words_gain_; },
             [&](const ir::Element& element) {
                 return is_uniform(element.place) &&
                        std::ranges::all_of(element.indices, [&](auto k) { return is_uniform(k); });
@@ -116,11 +168,19 @@ class ByteInts {
             },
             [](const auto&) { return false; });
     }
+    // Byte ints of tables that are not constant are not gathered.
+    bool has_bytes_as_indices(const ir::Load& load) const {
+        const ir::Buffer& buffer = program_[load.buffer];
+        const bool is_gathered =
+            buffer.storage == ir::Storage::Constant || buffer.scalar != ir::Scalar::Int;
+        return words_gain_ && is_gathered;
+    }
     static bool has_form_for_bytes(Operator op) {
-        return is_one_of(op,
-                         {Operator::Add, Operator::Subtract, Operator::Negate, Operator::Minimum,
-                          Operator::Maximum, Operator::Equal, Operator::NotEqual, Operator::Less,
-                          Operator::LessEqual, Operator::Greater, Operator::GreaterEqual});
+        return is_one_of(
+            op, {Operator::Add, Operator::Subtract, Operator::Negate, Operator::Minimum,
+                 Operator::Maximum, Operator::Equal, Operator::NotEqual, Operator::Less,
+                 Operator::LessEqual, Operator::Greater, Operator::GreaterEqual, Operator::BitAnd,
+                 Operator::BitOr, Operator::BitXor, Operator::CountOnes});
     }
 
     bool is_int(ir::NodeId id) const { return program_[id].type == ir::Scalar::Int; }
@@ -132,6 +192,8 @@ class ByteInts {
 
     const ir::Program& program_;
     std::vector<ir::Properties> properties_;
+    // Smaller packs have words in narrow lanes (ir/narrow_bits.hpp), and skip more draws.
+    bool words_gain_;
     std::set<ir::NodeId> visited_;
     bool has_ints_ = false;
 };

@@ -40,6 +40,51 @@ typedef std::uint8_t ByteWords __attribute__((vector_size(register_bytes)));
     return (ByteInts)_mm512_mask_blend_epi8(mask, (__m512i)b, (__m512i)a);
 }
 
+// How many bits of each byte are 1: a table has those of half a byte.
+[[gnu::always_inline]] inline ByteInts count_ones(ByteInts a) {
+    constexpr std::uint64_t all = ~std::uint64_t{0};
+    const __m512i halves = _mm512_set1_epi8(15);
+    const __m512i ones = _mm512_maskz_broadcast_i32x4(
+        0xFFFF, _mm_setr_epi8(0, 1, 1, 2, 1, 2, 2, 3, 1, 2, 2, 3, 2, 3, 3, 4));
+    const __m512i low = (__m512i)a & halves;
+    const __m512i high = _mm512_maskz_srli_epi16(0xFFFFFFFF, (__m512i)a, 4) & halves;
+    return (ByteInts)((ByteWords)_mm512_maskz_shuffle_epi8(all, ones, low) +
+                      (ByteWords)_mm512_maskz_shuffle_epi8(all, ones, high));
+}
+// The lanes in which that bit is 1.
+[[gnu::always_inline]] inline std::uint64_t lanes_of_bit(ByteInts a, int bit) {
+    return _mm512_test_epi8_mask((__m512i)a, _mm512_set1_epi8(static_cast<char>(1 << bit)));
+}
+// The sum of 2^i over all masks that have the lane, 8 at most.
+template <int count>
+[[gnu::always_inline]] inline ByteInts joined_masks(const std::uint64_t* masks) {
+    __m512i bits = _mm512_setzero_si512();
+    for (int i = 0; i < count; ++i)
+        bits |= _mm512_maskz_set1_epi8(masks[i], static_cast<char>(1 << i));
+    return (ByteInts)bits;
+}
+
+// The elements at these places of a table of at most 64 bools or ints, which are bytes.
+template <int count>
+[[gnu::always_inline]] inline ByteInts look_up_bytes(const bool* table, ByteInts places) {
+    constexpr std::uint64_t all = ~std::uint64_t{0};
+    const __m512i bytes = _mm512_maskz_loadu_epi8(all >> (64 - count), table);
+    return (ByteInts)_mm512_maskz_permutexvar_epi8(all, (__m512i)places, bytes);
+}
+template <int count>
+[[gnu::always_inline]] inline ByteInts look_up_bytes(const std::int64_t* table, ByteInts places) {
+    Words bytes{};
+    for (int i = 0; 8 * i < count; ++i) {
+        const auto some =
+            static_cast<__mmask8>(0xFF >> (8 - (count - 8 * i < 8 ? count - 8 * i : 8)));
+        const __m512i ints = _mm512_maskz_loadu_epi64(some, table + 8 * i);
+        bytes[i] =
+            static_cast<std::uint64_t>(_mm_cvtsi128_si64(_mm512_maskz_cvtepi64_epi8(0xFF, ints)));
+    }
+    return (ByteInts)_mm512_maskz_permutexvar_epi8(~std::uint64_t{0}, (__m512i)places,
+                                                   (__m512i)bytes);
+}
+
 // Bytes as the ints of a register.
 [[gnu::always_inline]] inline Ints widened(const std::int8_t* bytes) {
     return (Ints)_mm512_maskz_cvtepi8_epi64(0xFF, _mm_loadl_epi64((const __m128i_u*)bytes));
@@ -121,6 +166,12 @@ template <int count>
 
 #else
 
+template <class V>
+std::uint64_t lanes_of_bit(V a, int bit) = delete;
+template <int count, class T>
+ByteInts joined_masks(const T* masks) = delete;
+template <int count, class T>
+ByteInts look_up_bytes(const T* table, ByteInts places) = delete;
 template <class T>
 Ints widened(const T* bytes) = delete;
 template <class T>

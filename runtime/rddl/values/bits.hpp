@@ -58,12 +58,23 @@ Lanes<std::int64_t, n> bits_of(const Mask<n>* bools) {
     return bits_in_lanes<count>(bools);
 }
 template <int count>
+RDDL_INLINE Lanes<std::int8_t, 64> byte_ints(const Mask<64>* bools) {
+    return Lanes<std::int8_t, 64>::each(
+        [bools]() RDDL_INLINE_LAMBDA { return simd::joined_masks<count>(&bools->bits); });
+}
+template <int count>
 RDDL_INLINE void store_bits(std::int64_t bits, bool* bools) {
     simd::store_as_bytes<(count > 16 ? 64 : 16)>(static_cast<std::uint64_t>(bits), bools, count);
 }
 template <int count, int n>
 RDDL_INLINE void store_bits(const Lanes<std::int64_t, n>& bits, Mask<n>* bools) {
     store_lanes<count>(bits, bools);
+}
+
+template <int count, int n>
+RDDL_INLINE void store_bits(const Lanes<std::int8_t, n>& bits, Mask<n>* bools) {
+    for (int i = 0; i < count; ++i)
+        bools[i] = Mask<n>::of_bits(simd::lanes_of_bit(bits.part[0], i));
 }
 
 }  // namespace detail
@@ -75,6 +86,20 @@ auto bits(const Table& table) {
     constexpr Index count = std::min<Index>(detail::element_count<Table> - first, 64);
     return detail::bits_of<static_cast<int>(count), just_stored>(detail::first_element(table) +
                                                                  first);
+}
+// The bits of a table of at most 7 bools, as `bits` has them. Packs have them as byte ints, if the
+// processor has any.
+template <Index first = 0, bool just_stored = true, class Table>
+RDDL_INLINE auto byte_bits(const Table& table) {
+    constexpr auto count = static_cast<int>(detail::element_count<Table> - first);
+    static_assert(count <= 7);
+    const auto* const bools = detail::first_element(table) + first;
+#ifdef RDDL_SIMD_BYTE_INTS
+    if constexpr (std::is_same_v<decltype(bools), const Mask<64>* const>)
+        return detail::byte_ints<count>(bools);
+    else
+#endif
+        return detail::bits_of<count, just_stored>(bools);
 }
 // Whether one element at least is true in a table of one environment.
 template <class Table>
@@ -117,6 +142,10 @@ RDDL_INLINE bool keep_unchosen(Next&& next, const State& state, const Choices&..
 template <Index first = 0, class Table>
 auto action_bits(const Table& table) {
     return bits<first, false>(table);
+}
+template <Index first = 0, class Table>
+RDDL_INLINE auto byte_action_bits(const Table& table) {
+    return byte_bits<first, false>(table);
 }
 
 namespace detail {
@@ -191,17 +220,17 @@ constexpr std::int64_t bit_xor(std::int64_t a, std::int64_t b) {
 }
 template <class A, class B>
 requires SomePack<A, B> RDDL_INLINE auto bit_and(const A& a, const B& b) {
-    using Int = Lanes<std::int64_t, detail::common_width<A, B>>;
+    using Int = CommonInts<A, B>;
     return Int(a) & Int(b);
 }
 template <class A, class B>
 requires SomePack<A, B> RDDL_INLINE auto bit_or(const A& a, const B& b) {
-    using Int = Lanes<std::int64_t, detail::common_width<A, B>>;
+    using Int = CommonInts<A, B>;
     return Int(a) | Int(b);
 }
 template <class A, class B>
 requires SomePack<A, B> RDDL_INLINE auto bit_xor(const A& a, const B& b) {
-    using Int = Lanes<std::int64_t, detail::common_width<A, B>>;
+    using Int = CommonInts<A, B>;
     return Int(a) ^ Int(b);
 }
 
@@ -227,10 +256,10 @@ RDDL_INLINE void spread(Table& row, const Int& bits) {
 constexpr std::int64_t count_ones(std::int64_t a) {
     return __builtin_popcountll(static_cast<std::uint64_t>(a));
 }
-template <int n>
-RDDL_INLINE Lanes<std::int64_t, n> count_ones(const Lanes<std::int64_t, n>& a) {
-    return Lanes<std::int64_t, n>::each(
-        [](auto bits) RDDL_INLINE_LAMBDA { return simd::count_ones(bits); }, a);
+template <class T, int n>
+RDDL_INLINE Lanes<T, n> count_ones(const Lanes<T, n>& a) {
+    return Lanes<T, n>::each([](auto bits) RDDL_INLINE_LAMBDA { return simd::count_ones(bits); },
+                             a);
 }
 
 }  // namespace rddl

@@ -753,6 +753,38 @@ Mask<n> gather(const Mask<n>* elements, const Lanes<std::int64_t, n>& indices) {
     return lowest_bits(bits);
 }
 
+// A register holds a table of so few bools or ints as bytes, which byte ints permute.
+template <class T>
+inline constexpr bool may_be_byte = std::is_same_v<T, bool> || std::is_same_v<T, std::int64_t>;
+template <std::int64_t count, class T, int n>
+RDDL_INLINE auto look_up_bytes(const T* elements, const Lanes<std::int8_t, n>& indices) {
+    const auto found = Lanes<std::int8_t, n>::each(
+        [elements](auto places)
+            RDDL_INLINE_LAMBDA { return simd::look_up_bytes<int{count}>(elements, places); },
+        indices);
+    if constexpr (std::is_same_v<T, bool>)
+        return found != Lanes<std::int8_t, n>(0);
+    else
+        return found;
+}
+template <class T>
+RDDL_INLINE const T& wide_index(const T& index) {
+    return index;
+}
+template <int n>
+RDDL_INLINE Lanes<std::int64_t, n> wide_index(const Lanes<std::int8_t, n>& index) {
+    return widened(index);
+}
+// Ints of the table are as small as the indices.
+template <class T>
+RDDL_INLINE const T& element_for_bytes(const T& element) {
+    return element;
+}
+template <int n>
+RDDL_INLINE Lanes<std::int8_t, n> element_for_bytes(const Lanes<std::int64_t, n>& element) {
+    return Lanes<std::int8_t, n>(element);
+}
+
 // Only the first index differs between the lanes, of a table of bools with more elements than a
 // word has bits, but with few rows.
 template <class Array, class... Rest>
@@ -773,7 +805,13 @@ requires SomePack<First, Rest...> RDDL_INLINE auto at(const Array& array, const 
         constexpr int n = std::max({detail::pack_width<First>, detail::pack_width<Rest>...});
         using Nested = detail::Nested<Array>;
         const auto* const elements = reinterpret_cast<const typename Nested::Element*>(&array);
-        if constexpr (detail::is_read_by_column<Array, Rest...>) {
+        if constexpr (detail::are_byte_ints<First> && sizeof...(Rest) == 0 && Nested::count <= 64 &&
+                      detail::may_be_byte<typename Nested::Element>) {
+            return detail::look_up_bytes<Nested::count>(elements, first);
+        } else if constexpr (detail::are_byte_ints<First> || (detail::are_byte_ints<Rest> || ...)) {
+            return detail::element_for_bytes(
+                at(array, detail::wide_index(first), detail::wide_index(rest)...));
+        } else if constexpr (detail::is_read_by_column<Array, Rest...>) {
             using Row = typename Array::value_type;
             return detail::gather_from_column<std::tuple_size_v<Array>, detail::Nested<Row>::count>(
                 elements + detail::place_in<Row, std::int64_t>(rest...), first);

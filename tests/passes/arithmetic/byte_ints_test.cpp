@@ -1,5 +1,6 @@
 #include "passes/arithmetic/byte_ints.hpp"
 
+#include "passes/passes.hpp"
 #include "texts.hpp"
 
 #include <string>
@@ -47,6 +48,25 @@ TEST(ByteInts, AreThoseOfConditionsOnTheNextState) {
 TEST(ByteInts, HaveOnlySomeOperators) {
     EXPECT_FALSE(fit("div[x, 2]"));
     EXPECT_FALSE(fit("if (abs[x] > 1) then 1 else 2"));
+}
+
+// Counts of true bools, after passes that count the bits of words; `bools` for more work on bools.
+bool words_fit(const std::string& next, const std::string& bools) {
+    const Problem problem{.pvariables =
+                              "p(obj) : { state-fluent, bool, default = false };\n"
+                              "q(obj, obj, obj) : { state-fluent, bool, default = false };\n"
+                              "go(obj) : { action-fluent, bool, default = false };",
+                          .cpfs = "p'(?x) = " + next + ";\nq'(?x, ?y, ?z) = " + bools + ";"};
+    return passes::has_byte_ints(optimise(grounded(problem)));
+}
+
+TEST(ByteInts, AreWordsOfFewBoolsInLargePacks) {
+    const std::string few = "(sum_{?y : obj} p(?y)) == (sum_{?y : obj} go(?y))";
+    const std::string all = "(sum_{?u : obj, ?v : obj, ?w : obj} q(?u, ?v, ?w)) == 9";
+    const std::string product = "exists_{?w : obj} [q(?x, ?y, ?w) ^ q(?w, ?y, ?z) | q(?y, ?w, ?x)]";
+    EXPECT_TRUE(words_fit(few, product));
+    EXPECT_FALSE(words_fit(few, "(sum_{?w : obj} q(?x, ?y, ?w)) > 1"));
+    EXPECT_FALSE(words_fit(all, product));
 }
 
 }  // namespace

@@ -12,6 +12,17 @@
 namespace rddl {
 namespace {
 
+TEST(ByteBits, OfOneEnvironmentAreAnInt) {
+    EXPECT_EQ(byte_bits(std::array{true, false, true, true}), 13);
+    EXPECT_EQ(byte_action_bits(std::array{true, false, true, true}), 13);
+}
+TEST(ByteBits, OfSmallPacksAreInts) {
+    std::mt19937_64 random(0);
+    std::array<Mask<16>, 6> bools;
+    for (Mask<16>& each : bools) each = Mask<16>::of_bits(random());
+    EXPECT_TRUE(all(byte_bits(bools) == bits(bools)));
+}
+
 #ifdef RDDL_SIMD_BYTE_INTS
 
 constexpr int width = 64;
@@ -71,6 +82,66 @@ TEST(ByteInts, AreMadeOfBools) {
     const Mask<width> mask = Mask<width>::of_bits(0xF0F1F2F3F4F5F6F7);
     const auto bytes = to_int<Bytes>(mask);
     for (int lane = 0; lane < width; ++lane) EXPECT_EQ(bytes[lane], mask[lane]);
+}
+
+TEST(ByteInts, HaveBits) {
+    EXPECT_INTS_OF_64_BITS(bit_and(x, y));
+    EXPECT_INTS_OF_64_BITS(bit_or(x, y));
+    EXPECT_INTS_OF_64_BITS(bit_xor(x, y));
+    EXPECT_INTS_OF_64_BITS(bit_and(63, y));
+    EXPECT_INTS_OF_64_BITS(count_ones(bit_and(x, 63)));
+    EXPECT_EQ(count_ones(Bytes(-1))[5], 8);
+}
+
+TEST(ByteInts, AreTheBitsOfAFewBools) {
+    std::mt19937_64 random(0);
+    std::array<Mask<width>, 7> bools, spread_bools;
+    for (Mask<width>& each : bools) each = Mask<width>::of_bits(random());
+    const Bytes found = byte_bits(bools);
+    const Wide expected = bits(bools);
+    for (int lane = 0; lane < width; ++lane) EXPECT_EQ(found[lane], expected[lane]);
+    spread(spread_bools, found);
+    for (std::size_t i = 0; i < bools.size(); ++i)
+        EXPECT_EQ(spread_bools[i].bits, bools[i].bits) << i;
+}
+
+template <class T, std::size_t rows, std::size_t columns>
+auto table_of_remainders() {
+    std::array<std::array<T, columns>, rows> table;
+    for (std::size_t k = 0; k < rows * columns; ++k)
+        table[k / columns][k % columns] = static_cast<T>(k * 5 % 7 % (sizeof(T) == 1 ? 2 : 7));
+    return table;
+}
+template <class T, std::size_t rows, std::size_t columns>
+void expect_elements() {
+    const auto table = table_of_remainders<T, rows, columns>();
+    Wide row, column;
+    for (int lane = 0; lane < width; ++lane) {
+        row.set(lane, lane % static_cast<int>(rows));
+        column.set(lane, lane % static_cast<int>(columns));
+    }
+    const auto in_last_row = at(table, rows - 1, Bytes(column));
+    const auto in_first_column = at(table, Bytes(row), 0);
+    const auto anywhere = at(table, Bytes(row), Bytes(column));
+    for (int lane = 0; lane < width; ++lane) {
+        const auto r = static_cast<std::size_t>(row[lane]);
+        const auto c = static_cast<std::size_t>(column[lane]);
+        EXPECT_EQ(in_last_row[lane], table[rows - 1][c]) << c;
+        EXPECT_EQ(in_first_column[lane], table[r][0]) << r;
+        EXPECT_EQ(anywhere[lane], table[r][c]) << r << ", " << c;
+    }
+}
+TEST(ByteInts, AreIndicesOfTables) {
+    expect_elements<std::int64_t, 2, 3>();
+    expect_elements<std::int64_t, 3, 8>();
+    expect_elements<std::int64_t, 3, 13>();
+    expect_elements<std::int64_t, 2, 64>();
+    expect_elements<std::int64_t, 2, 70>();
+    expect_elements<bool, 4, 5>();
+    expect_elements<bool, 2, 64>();
+    expect_elements<bool, 3, 70>();
+    expect_elements<double, 3, 7>();
+    expect_elements<double, 3, 40>();
 }
 
 template <int columns>
