@@ -116,6 +116,7 @@ std::vector<std::string> command_of(const fs::path& source, const fs::path& outp
                                     const std::vector<std::string>& more) {
     auto command = shared_object_command(source, output, Processors::Any);
     command.insert(command.end() - 1, {"-O0", "-Wall", "-Wextra", "-Wshadow", "-Werror"});
+    if (*INLINE_LESS) command.insert(command.end() - 1, INLINE_LESS);
     command.insert(command.end() - 1, more.begin(), more.end());
     return command;
 }

@@ -1,10 +1,10 @@
 """Whole little domains, composed of families: docs/fuzzing.md."""
 
-from domains import belts, boards, chances, control, dice, flows, grids, machines, markets, networks, places, pointers, queues, shapes, tours, vehicles, zeros
+from domains import belts, boards, chances, control, dice, flows, grids, machines, markets, networks, places, pointers, queues, rounds, shapes, tours, vehicles, zeros
 from domains.draft import ACTION, OBSERVATION, STATE, Draft, of, over
 from rddl_problem import Expr, Fluent, Policy, Problem
 
-FAMILIES = (grids, places, queues, pointers, machines, networks, control, flows, markets, chances, vehicles, zeros, tours, boards, dice, belts, shapes)
+FAMILIES = (grids, places, queues, pointers, machines, networks, control, flows, markets, chances, vehicles, zeros, tours, boards, dice, belts, shapes, rounds)
 
 
 def generate(seed: int, flavour: str = "plain") -> Problem:

@@ -5,16 +5,17 @@ from rddl_problem import Type
 
 
 def add(draft: Draft) -> None:
-    belt, place = draft.objects("belt"), places(draft)
-    after = chain(draft, place)
+    is_plain = draft.chance(0.4)  # else nearly all belts have something about which registers give up
+    belt, place = draft.objects("belt"), places(draft, is_plain)
+    after = chain(draft, place, is_plain)
     number = draft.declare("NUMBER", CONSTANT, "int", place)
     number.values = {(member,): str(index) for index, member in enumerate(draft.problem.type(place).members)}
-    carried = draft.declare("carried", STATE, draft.pick(["real", "real", "real", "real", "int", "bool"]), belt, place)
+    carried = draft.declare("carried", STATE, "real" if is_plain else draft.pick(["real", "real", "real", "real", "int", "bool"]), belt, place)
     speed = draft.declare("speed", ACTION, "bool", belt, default="false")
     onward = moved(draft, place, after, carried)
     target, share = where(draft, belt, speed)
     feed = draft.bounded(draft.signed(draft.some_real({"?b": belt})))
-    draft.define(carried, ("?b", "?p"), more(draft, carried, onward, number, target, share, feed, speed))
+    draft.define(carried, ("?b", "?p"), more(draft, carried, onward, number, target, share, feed, speed, is_plain))
     arrived = draft.interm("arrived", {"?b": belt}, arriving(draft, place, carried))
     draft.earn(over("sum", "?b", belt, draft.at(arrived, "?b")))
     if draft.chance(0.5):
@@ -36,18 +37,20 @@ def arriving(draft: Draft, place: str, carried):
     return draft.revealed(arrived) if draft.chance(0.5) else arrived
 
 
-def places(draft: Draft) -> str:
+def places(draft: Draft, is_plain: bool) -> str:
     name = draft.fresh("slot")
-    draft.problem.types.append(Type(name, False, [f"{name}-{i}" for i in range(draft.pick([1, 3, 8, 9, 12, 13, 16, 17, 21, 24]))]))
+    sizes = [12, 13, 16, 17, 24, 25] if is_plain else [1, 3, 8, 9, 12, 13, 16, 17, 21, 24]
+    draft.problem.types.append(Type(name, False, [f"{name}-{i}" for i in range(draft.pick(sizes))]))
     return name
 
 
-def chain(draft: Draft, place: str):
+def chain(draft: Draft, place: str, is_plain: bool):
     """Each place and the one that comes to it: the next one, now and then the one before, in a ring, or with a gap."""
     table = draft.declare("AFTER", CONSTANT, "bool", place, place, default="false")
     members = draft.problem.type(place).members
-    by = draft.pick([1] * 8 + [-1, 2])
-    is_ring, gap = draft.chance(0.1), draft.rng.randrange(len(members)) if draft.chance(0.1) else None
+    by = 1 if is_plain else draft.pick([1] * 8 + [-1, 2])
+    is_ring, has_gap = (not is_plain and draft.chance(0.1) for _ in range(2))
+    gap = draft.rng.randrange(len(members)) if has_gap else None
     for index, member in enumerate(members):
         if (is_ring or 0 <= index + by < len(members)) and index != gap:
             table.values[(member, members[(index + by) % len(members)])] = "true"
@@ -73,7 +76,7 @@ def where(draft: Draft, belt: str, speed):
     return target, share
 
 
-def more(draft: Draft, carried, onward, number, target, share, feed, speed):
+def more(draft: Draft, carried, onward, number, target, share, feed, speed, is_plain: bool):
     is_here = boolean("(%s == %s)", draft.at(number, "?p"), draft.at(target, "?b"))
     is_beside = boolean("(%s == (%s + 1))", draft.at(number, "?p"), draft.at(target, "?b"))
     if carried.range == "bool":
@@ -84,5 +87,7 @@ def more(draft: Draft, carried, onward, number, target, share, feed, speed):
     put = real("(%s * (1 - %s) * %s)", is_here, rest, feed)
     if draft.chance(0.7):
         put = real("(%s + %s * %s * %s)", put, is_beside, rest, feed)
+    if is_plain:
+        return real("(%s + %s)", put, onward)
     both = real(draft.pick(["(%s + %s)"] * 4 + ["(%s - %s)"]), *draft.pick([(put, onward)] * 3 + [(onward, put)]))
     return both if draft.chance(0.85) else draft.bounded(both)
