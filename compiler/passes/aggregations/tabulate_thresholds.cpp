@@ -102,6 +102,12 @@ class ThresholdTabulation {
 
     using Replacement = std::optional<ir::NodeId>;
 
+    // Draws among them may become ints of small ranges.
+    std::vector<ir::NodeId> all_rewritten(std::vector<ir::NodeId> ids) {
+        for (ir::NodeId& id : ids) id = rewritten(id);
+        return ids;
+    }
+
     // One for each object; none if these are too many.
     std::vector<ir::NodeId> weights_of(const ir::DiscreteOver& discrete) {
         const std::int64_t size = program_[discrete.variable].size;
@@ -115,8 +121,9 @@ class ThresholdTabulation {
         return weights;
     }
 
-    Replacement interval_of(ir::Place place, const std::vector<ir::NodeId>& weights) {
-        if (weights.empty() || weights.size() > most_weights) return std::nullopt;
+    Replacement interval_of(ir::Place place, const std::vector<ir::NodeId>& given) {
+        if (given.empty() || given.size() > most_weights) return std::nullopt;
+        const std::vector<ir::NodeId> weights = all_rewritten(given);
         return parameters_.tabulated(
             weights, weights.size(), [&](const ParameterRows& of_weights) -> Replacement {
                 Rows rows;
@@ -134,11 +141,14 @@ class ThresholdTabulation {
     Replacement interval_of(const ir::Sample& sample) {
         if (program_.real == RealType::Float || !has_count_steps(sample.distribution))
             return std::nullopt;
+        const std::vector<ir::NodeId> parameters = all_rewritten(sample.parameters);
         return parameters_.tabulated(
-            sample.parameters, most_count_steps, [&](const ParameterRows& rows) -> Replacement {
+            parameters, most_count_steps, [&](const ParameterRows& rows) -> Replacement {
                 const auto counts = counts_by_inversion(sample.distribution, rows.values);
                 if (!counts) return std::nullopt;
-                return count_among(sample.place, *counts, rows);
+                const ir::NodeId count = count_among(sample.place, *counts, rows);
+                if (!counts->are_failures) return count;
+                return builder_.apply(Operator::Subtract, {parameters.front(), count});
             });
     }
 

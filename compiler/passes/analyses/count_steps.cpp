@@ -25,13 +25,20 @@ std::int64_t count_of(const Draw& draw, std::int64_t number) {
     return draw(draws);
 }
 
+// The probability of what is counted.
+double rarer(double probability) {
+    return std::min(probability, 1 - probability);
+}
+bool are_failures(Distribution distribution, const std::vector<double>& parameters) {
+    return distribution == Distribution::Binomial && parameters[1] > 0.5;
+}
+
 // Whether one uniform number decides the count, which grows with it.
 bool walks_up(Distribution distribution, const std::vector<double>& parameters) {
     if (distribution == Distribution::Poisson)
         return parameters[0] >= 0 && parameters[0] < rddl::largest_walked_mean;
-    // Above 1/2 it is the failures that are drawn, and the count falls.
     return parameters[0] >= 0 && parameters[0] <= largest_exact_int && parameters[1] >= 0 &&
-           parameters[1] <= 0.5 && parameters[0] * parameters[1] < rddl::largest_walked_mean;
+           parameters[1] <= 1 && parameters[0] * rarer(parameters[1]) < rddl::largest_walked_mean;
 }
 Draw draw_of(Distribution distribution, const std::vector<double>& parameters) {
     if (distribution == Distribution::Poisson)
@@ -40,7 +47,8 @@ Draw draw_of(Distribution distribution, const std::vector<double>& parameters) {
         };
     return [trials = static_cast<std::int64_t>(parameters[0]),
             probability = parameters[1]](rddl::Draws& draws) {
-        return rddl::standard_binomial(draws, trials, probability);
+        const std::int64_t successes = rddl::standard_binomial(draws, trials, probability);
+        return probability > 0.5 ? trials - successes : successes;
     };
 }
 
@@ -82,7 +90,9 @@ std::optional<CountSteps> counts_by_inversion(Distribution distribution,
     std::optional<std::int64_t> target;  // of jumps
     std::size_t length = 0;
     for (const std::vector<double>& row : parameters) {
-        if (!walks_up(distribution, row)) return std::nullopt;
+        const bool is_alike =
+            are_failures(distribution, row) == are_failures(distribution, parameters.front());
+        if (!is_alike || !walks_up(distribution, row)) return std::nullopt;
         auto walk = walk_of(draw_of(distribution, row));
         if (!walk || (walk->jumps() && walk->last != target.value_or(walk->last)))
             return std::nullopt;
@@ -95,7 +105,9 @@ std::optional<CountSteps> counts_by_inversion(Distribution distribution,
         return !walk.jumps() && walk.thresholds.size() == length;
     };
     if (target && std::ranges::any_of(walks, ends_there)) ++length;
-    CountSteps steps{{}, target.value_or(static_cast<std::int64_t>(length))};
+    CountSteps steps{{},
+                     target.value_or(static_cast<std::int64_t>(length)),
+                     are_failures(distribution, parameters.front())};
     for (Walk& walk : walks) {
         const double rest = walk.jumps() ? walk.thresholds.back() : 1;
         walk.thresholds.resize(length, rest);

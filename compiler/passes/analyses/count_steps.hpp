@@ -20,11 +20,13 @@ struct CountSteps {
     // equally long; what no number reaches is 1.
     std::vector<std::vector<double>> thresholds;
     std::int64_t last;  // the count of a number that reaches all thresholds of its row
+    bool are_failures;  // Binomial: those that are counted
 };
 
 bool has_count_steps(Distribution distribution);
 
-// Nothing if some parameters are wrong, or so large that the count is not found by a walk.
+// Nothing if some parameters are wrong, or so large that the count is not found by a walk; or if
+// successes are drawn for some and failures for others. Those are drawn that are rarer.
 std::optional<CountSteps> counts_by_inversion(Distribution distribution,
                                               const std::vector<std::vector<double>>& parameters);
 

@@ -34,7 +34,7 @@ std::vector<double> numbers_around(const std::vector<double>& thresholds) {
         numbers.push_back(threshold - 0x1p-52);
         if (threshold < 1) numbers.push_back(threshold);
     }
-    for (int k = 0; k < 1024; ++k) numbers.push_back(k / 1024.0);
+    for (int k = 0; k < 256; ++k) numbers.push_back(k / 256.0);
     return numbers;
 }
 
@@ -50,24 +50,31 @@ TEST(CountSteps, AreThoseOfPoissonDraws) {
         }
 }
 
-TEST(CountSteps, AreThoseOfBinomialDraws) {
-    const Parameters parameters = {{0, 0.5}, {1, 0.25}, {5, 0.5}, {40, 0.2}, {1e6, 1e-7}, {3, 0}};
+void expect_binomial_draws(const Parameters& parameters, bool are_failures) {
     const auto steps = counts_by_inversion(Distribution::Binomial, parameters);
     ASSERT_TRUE(steps);
+    EXPECT_EQ(steps->are_failures, are_failures);
     for (std::size_t of = 0; of < parameters.size(); ++of)
         for (const double number : numbers_around(steps->thresholds[of])) {
             rddl::Draws draws = with_number(number);
             const auto trials = static_cast<std::int64_t>(parameters[of][0]);
-            ASSERT_EQ(found(*steps, of, number),
+            const std::int64_t count = found(*steps, of, number);
+            ASSERT_EQ(are_failures ? trials - count : count,
                       rddl::standard_binomial(draws, trials, parameters[of][1]))
                 << trials << " " << number;
         }
 }
 
+TEST(CountSteps, AreThoseOfBinomialDraws) {
+    expect_binomial_draws({{0, 0.5}, {1, 0.25}, {5, 0.5}, {40, 0.2}, {1e6, 1e-7}, {3, 0}}, false);
+    expect_binomial_draws({{0, 1}, {1, 0.75}, {5, 0.6}, {40, 0.8}, {1e6, 1 - 1e-7}}, true);
+    EXPECT_FALSE(counts_by_inversion(Distribution::Binomial, {{1, 0.25}, {1, 0.75}}));
+}
+
 // Rounding keeps some walks from ending before their last step: their count jumps.
 TEST(CountSteps, MayEndInAJump) {
     std::int64_t jumps = 0;
-    for (int k = 1; k < 400; ++k) {
+    for (const int k : {130, 131, 201, 235}) {
         const Parameters rate = {{k / 41.0}};
         const auto steps = counts_by_inversion(Distribution::Poisson, rate);
         if (!steps) continue;

@@ -14,7 +14,9 @@ bool are_valid(const Columns& columns, const std::vector<std::int64_t>& rows) {
     const auto bytes = std::as_bytes(std::span(rows));
     const auto count = static_cast<std::int64_t>(bytes.size()) / columns.row_size;
     const bool are_valid = records_are_valid(columns, bytes.data(), count);
-    if (count == 1) EXPECT_EQ(record_is_valid(columns, bytes.data()), are_valid);
+    if (count == 1) {
+        EXPECT_EQ(record_is_valid(columns, bytes.data()), are_valid);
+    }
     return are_valid;
 }
 
