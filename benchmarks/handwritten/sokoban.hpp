@@ -12,7 +12,7 @@ struct Sokoban : RunsToTheHorizon {
     static constexpr std::uint64_t horizon = 10;
     static constexpr bool stochastic = false;
     static constexpr std::size_t cells = 35;
-    // Of a cell to its neighbours: a column is as long as the room is high.
+    // The distances from a cell to its neighbours: a column is as long as the room is high.
     static constexpr std::uint64_t column = 7, one = 1;
 
     template <class L>

@@ -18,7 +18,7 @@ constexpr double real_of(std::int64_t number) {
 
 using Draw = std::function<std::int64_t(rddl::Draws&)>;
 
-// What the simulator draws with this uniform number.
+// The count that the simulator draws with this uniform number.
 std::int64_t count_of(const Draw& draw, std::int64_t number) {
     const std::array<double, rddl::Draws::first_count> numbers{real_of(number)};
     rddl::Draws draws(rddl::StreamKey{}, 0, rddl::Place{0, 0}, numbers);

@@ -37,8 +37,8 @@ class ParameterTabulation {
     using Result = std::optional<ir::NodeId>;
     using Use = std::function<Result(const ParameterRows&)>;
 
-    // What `use` makes of the rows; nothing if the parameters depend on more, or if these have too
-    // many combinations for tables of so many elements a row.
+    // The result of `use` on the rows; nothing if the parameters depend on more, or if these have
+    // too many combinations for tables of so many elements a row.
     Result tabulated(const std::vector<ir::NodeId>& parameters, std::size_t elements_of_row,
                      const Use& use);
 

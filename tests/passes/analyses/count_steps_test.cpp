@@ -20,7 +20,7 @@ rddl::Draws with_number(double number) {
     return {rddl::StreamKey{}, 0, rddl::Place{0, 0}, numbers};
 }
 
-// What a step finds among the thresholds.
+// The count that a step finds among the thresholds.
 std::int64_t found(const passes::CountSteps& steps, std::size_t of, double number) {
     const std::vector<double>& thresholds = steps.thresholds[of];
     const auto count = std::ranges::count_if(thresholds, [=](double t) { return t <= number; });
