@@ -95,6 +95,8 @@ REFERENCES = {
     "Logistics_rddlsim": Reference(OBJECTS, "0", "logistics", "Logistics"),
     "RedFinnedBlueEye_ippc2018": Reference(OBJECTS, "20", "red_finned_blue_eye", "RedFinnedBlueEye"),
     "Tetris_arcade": Reference(GRIDS, "0", "tetris", "Tetris"),
+    "Sokoban_arcade": Reference(GRIDS, "0", "sokoban", "Sokoban"),
+    "Blackjack_arcade": Reference(QUEUES, "0", "blackjack", "Blackjack"),
     "Zombies_arcade": Reference(OBJECTS, "2", "zombies", "Zombies"),
 }
 LEAST_RATIO = 0.9

@@ -631,6 +631,16 @@ def tetris() -> list[str]:
     return [words("placed", placed), number("shape", the_only(values["current-shape-type"]), "std::uint64_t")]
 
 
+def sokoban() -> list[str]:
+    values = values_of("Sokoban_arcade", "0")
+    walls = values["WALL"]
+    assert walls.shape == (5, 7) and np.all(np.diff(values["IX"]) == 1) and np.all(np.diff(values["IY"]) == 1)
+    assert all(np.all(side) for side in (walls[0], walls[-1], walls[:, 0], walls[:, -1]))
+    assert np.sum(values["box"]) <= np.sum(values["STORAGE"]) and np.sum(values["man"]) == 1
+    names = {"walls": "WALL", "storage": "STORAGE", "boxes": "box", "man": "man"}
+    return [bit_set(ours, values[name].ravel()) for ours, name in names.items()]
+
+
 TABLES = (
     mountain_car,
     sysadmin,
@@ -670,6 +680,7 @@ TABLES = (
     chromatic_dice,
     quadcopter,
     tetris,
+    sokoban,
 )
 
 

@@ -324,7 +324,7 @@ double own_cost(const Program& program, const Node& node) {
         [](const Union&) { return union_cost; },
         [](const Apply& apply) { return cost_of(apply.op); }, [](const Select&) { return 1.0; },
         [&](const Reduce&) { return repetitions(program, node); },
-        [&](const Sample&) { return draw_cost + (node.type == Scalar::Real ? quantile_cost : 0); },
+        [&](const Sample&) { return draw_cost + (node.type == Scalar::Bool ? 0 : quantile_cost); },
         [](const Discrete& discrete) {
             return draw_cost + static_cast<double>(discrete.weights.size());
         },

@@ -6,7 +6,9 @@
 //     sample interval@0[d](face-thresholds[d, state.mood])
 //
 // A step then neither checks nor adds weights, and the draw cannot fault. So this is done only
-// where the weights are right whatever the ints are. Draws of two branches that have the same
+// where the weights are right whatever the ints are. Poisson and Binomial draws of small means are
+// searches as well, since one uniform number decides them; the thresholds are the least numbers
+// with which a step draws each count. Draws of two branches that have the same
 // random numbers become one, from a table of the rows of both:
 //
 //     select(state.wet, sample interval@0[c](thresholds), sample interval@1[c](thresholds-2))

@@ -297,11 +297,10 @@ class Batch {
             while (share.begin < share.end) share.begin = step_some(workspace, share, actions, out);
         });
     }
-    // The view of the only environment, if it accepts all actions; else null.
+    // The view of the only environment, whose steps are not kept; else null.
     const BatchView<L>* only_one() const {
         const bool is_one = width == 1 && options_.environment_count == 1;
-        const bool accepts_all = !action_columns_.has_objects;
-        return is_one && accepts_all && !keeps_steps() ? views_.data() : nullptr;
+        return is_one && !keeps_steps() ? views_.data() : nullptr;
     }
 
     // The same with matrices of numbers; `observations` may be null.

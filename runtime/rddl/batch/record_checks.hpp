@@ -76,6 +76,23 @@ inline bool records_are_valid(const Columns& columns, const std::byte* records,
     return true;
 }
 
+// The same of one record. Mostly it has few objects, for which a loop over registers would take
+// longer to begin than to run.
+RDDL_INLINE bool record_is_valid(const Columns& columns, const std::byte* record) {
+    bool all = true;
+    for (const Column& column : columns.list) {
+        if (column.limit == 0) continue;
+        if (column.count >= simd::lanes_of<std::uint64_t>)
+            return records_are_valid(columns, record, 1);
+        for (std::int64_t k = 0; k < column.count; ++k) {
+            std::uint64_t value;
+            std::memcpy(&value, record + column.row + 8 * k, sizeof value);
+            all &= value < static_cast<std::uint64_t>(column.limit);
+        }
+    }
+    return all;
+}
+
 #ifdef RDDL_SIMD_BYTE_INTS
 // Reads whole blocks of objects alone (are_read_when_checked); whether all are valid.
 template <class L>

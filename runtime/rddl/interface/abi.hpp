@@ -59,6 +59,13 @@ void write_struct(Struct* to, Struct value) {
     std::memcpy(static_cast<void*>(to), &value, std::min(size, sizeof value));
 }
 
+inline bool have_objects(const rddl_problem& problem, rddl_role role) {
+    const rddl_fluent* const end = problem.fluents + problem.fluent_count;
+    return std::any_of(problem.fluents, end, [role](const rddl_fluent& fluent) {
+        return fluent.role == role && fluent.range_type >= 0;
+    });
+}
+
 // The error in the options; RDDL_OK if they are valid.
 inline rddl_error check_options(const rddl_batch_options& given, std::int64_t lane_count) {
     if (given.environment_count < 0)
@@ -260,12 +267,16 @@ class Functions {
         return RDDL_OK;
     }
 
+    // A function of its own for problems whose actions have objects: the others test none.
+    template <bool actions_have_objects>
     static rddl_error step(rddl_batch* batch, const void* actions, const rddl_transition* out) {
         if (batch == nullptr || out == nullptr) return missing("the batch or the transition");
         const auto* const records = static_cast<const std::byte*>(actions);
         const Handle& all = handle(batch);
         if (all.only_one && out->struct_size <= sizeof *out &&
-            all.only_one->blocks.are_blocks(records))
+            all.only_one->blocks.are_blocks(records) &&
+            (!actions_have_objects ||
+             record_is_valid(*all.only_one->blocks.action_columns, records)))
             return all.maker->engine.advance_one(*all.only_one, 0, {records, nullptr}, *out);
         return step_any(handle(batch), records, *out);
     }
@@ -806,7 +817,7 @@ rddl_simulator Functions<L>::table(const Parts& parts) {
             .destroy = destroy,
             .last_error = last_error,
             .reset = reset,
-            .step = step,
+            .step = have_objects(*parts.problem, RDDL_ACTION) ? step<true> : step<false>,
             .get_state = get_state,
             .get_observation = get_observation,
             .set_state = set_state,

@@ -110,6 +110,60 @@ TEST(TabulateThresholds, MakesOneDrawOfTwoBranches) {
     EXPECT_EQ(made.table(), (std::vector<ir::Value>{0.5, 0.75, 0.25, 0.75, 0.25, 0.5}));
 }
 
+TEST(TabulateThresholds, FindsCountsByTheirNumbers) {
+    const Tabulated made(grounded({.pvariables = "P(obj) : { non-fluent, real, default = 0.25 };\n"
+                                                 "n(obj) : { state-fluent, int, default = 0 };\n"
+                                                 "m(obj) : { state-fluent, int, default = 0 };\n"
+                                                 "p : { state-fluent, bool, default = false };",
+                                   .cpfs = "n'(?o) = Poisson(if (p) then P(?o) else 1.0);\n"
+                                           "m'(?o) = Binomial(3, P(?o));\np' = ~p;",
+                                   .non_fluents = "P(b2) = 0.5;"}));
+    EXPECT_EQ(made.cpf_of("n"), "next.n[o] = sample interval@1[o](n-thresholds[o, int(state.p)])");
+    EXPECT_EQ(made.cpf_of("m"), "next.m[o] = sample interval@0[o](m-thresholds[o])");
+    EXPECT_EQ(made.shape(), (std::vector<std::int64_t>{3, 2, 17}));
+    EXPECT_EQ(made.report.at("draws made searches among thresholds"), 2);
+}
+
+TEST(TabulateThresholds, LeavesCountsThatNoWalkFinds) {
+    for (const char* cpf : {"Poisson(10.0)", "Poisson(-1.0)", "Poisson(x)", "Binomial(-1, 0.25)",
+                            "Binomial(40, 0.3)", "Geometric(0.25)"}) {
+        const auto before = [&] {
+            return grounded({.pvariables = "n : { state-fluent, int, default = 0 };\n"
+                                           "x : { state-fluent, real, default = 0.0 };",
+                             .cpfs = std::string("n' = ") + cpf + ";\nx' = x;"});
+        };
+        EXPECT_EQ(step_text(Tabulated(before()).program), step_text(before())) << cpf;
+        ir::Program floats = before();
+        floats.real = RealType::Float;
+        EXPECT_EQ(step_text(Tabulated(std::move(floats)).program), step_text(before())) << cpf;
+    }
+}
+
+TEST(TabulateThresholds, CountsFailuresWhereTheyAreRarer) {
+    const Tabulated made(grounded({.pvariables = "n : { state-fluent, int, default = 0 };",
+                                   .cpfs = "n' = Binomial(2, 0.75);"}));
+    EXPECT_EQ(made.cpf_of("n"), "next.n = 2 - sample interval@0[0](n-thresholds)");
+    EXPECT_EQ(made.table(), (std::vector<ir::Value>{0.5625, 0.9375}));
+}
+
+TEST(TabulateThresholds, TakesDrawsForInts) {
+    const Tabulated made(grounded({.pvariables = "n : { state-fluent, int, default = 0 };",
+                                   .cpfs = "n' = Binomial(Binomial(2, 0.5), 0.5);"}));
+    EXPECT_EQ(made.cpf_of("n"),
+              "next.n = sample interval@1[0](n-thresholds-2[sample interval@0[0](n-thresholds)])");
+    EXPECT_EQ(made.shape(), (std::vector<std::int64_t>{3, 2}));
+}
+
+TEST(TabulateThresholds, MakesOneDrawOfTwoRates) {
+    const Tabulated made(
+        grounded({.pvariables = "n : { state-fluent, int, default = 0 };\n"
+                                "p : { state-fluent, bool, default = false };",
+                  .cpfs = "n' = if (p) then Binomial(1, 0.5) else Binomial(2, 0.5);\np' = ~p;"}));
+    EXPECT_EQ(made.cpf_of("n"),
+              "next.n = sample interval@0[0](n-thresholds-3[select(state.p, 0, 1)])");
+    EXPECT_EQ(made.table(), (std::vector<ir::Value>{0.5, 1.0, 0.25, 0.75}));
+}
+
 TEST(TabulateThresholds, LeavesDrawsThatMayFaultOrDependOnMore) {
     for (const char* cpf : {"Discrete(color, @red : 0.25, @green : 0.5, @blue : 0.5)",
                             "Discrete(color, @red : -0.25, @green : 0.75, @blue : 0.5)",

@@ -12,8 +12,12 @@ namespace {
 
 bool are_valid(const Columns& columns, const std::vector<std::int64_t>& rows) {
     const auto bytes = std::as_bytes(std::span(rows));
-    return records_are_valid(columns, bytes.data(),
-                             static_cast<std::int64_t>(bytes.size()) / columns.row_size);
+    const auto count = static_cast<std::int64_t>(bytes.size()) / columns.row_size;
+    const bool are_valid = records_are_valid(columns, bytes.data(), count);
+    if (count == 1) {
+        EXPECT_EQ(record_is_valid(columns, bytes.data()), are_valid);
+    }
+    return are_valid;
 }
 
 // Each place of a run of rows is looked at, in registers or behind the last full one.
@@ -47,6 +51,8 @@ TEST(RecordChecks, LeaveNumbersBesideObjects) {
     const Columns both{.list = {numbers, objects}, .row_size = 24, .has_objects = true};
     EXPECT_TRUE(are_valid(both, {77, 4, 4, -8, 0, 0}));
     for (const std::size_t rows : {1, 5}) expect_all_are_checked(both, rows);
+    const Column many{.scalar = RDDL_INT, .limit = 5, .count = 19, .first = 1, .row = 8};
+    expect_all_are_checked({.list = {numbers, many}, .row_size = 160, .has_objects = true}, 1);
 }
 
 #ifdef RDDL_SIMD_BYTE_INTS

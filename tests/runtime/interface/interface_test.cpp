@@ -122,6 +122,27 @@ TEST(Interface, EndsTheEpisodeOfATerminalStateThatIsSet) {
     EXPECT_EQ(causes[1], RDDL_RUNNING);
 }
 
+// A step of one environment takes another way.
+TEST(Interface, RefusesAnActionOfOneEnvironmentThatNamesNoObject) {
+    TinyBatch batch(batch_options(1, 0, 42, 1, RDDL_AUTORESET_DISABLED));
+    const rddl_transition nothing{};
+    for (const std::int64_t mode :
+         {std::int64_t{-1}, std::int64_t{2}, std::numeric_limits<std::int64_t>::min()}) {
+        batch.actions[0].set_mode = mode;
+        EXPECT_EQ(functions.step(batch.get(), batch.actions.data(), &nothing), RDDL_BAD_ARGUMENT);
+        EXPECT_EQ(functions.step(batch.get(), nullptr, &nothing), RDDL_BAD_ARGUMENT);
+    }
+    const auto expect_steps = [&](std::int64_t expected) {
+        std::int64_t steps;
+        EXPECT_EQ(functions.get_progress(batch.get(), 0, 1, &steps, nullptr), RDDL_OK);
+        EXPECT_EQ(steps, expected);
+    };
+    expect_steps(0);
+    batch.actions[0].set_mode = 1;
+    EXPECT_EQ(functions.step(batch.get(), batch.actions.data(), &nothing), RDDL_OK);
+    expect_steps(1);
+}
+
 TEST(Interface, RefusesStatesAndActionsThatNameNoObject) {
     TinyBatch batch(four);
     StateRecord state{};

@@ -56,8 +56,8 @@ inline std::int64_t binomial_by_rejection(Draws& draws, std::int64_t trials, dou
 
 // p <= 1/2.
 inline std::int64_t binomial_of_rare(Draws& draws, std::int64_t n, double p) {
-    return to_real(n) * p < 10 ? binomial_by_inversion(draws, n, p)
-                               : binomial_by_rejection(draws, n, p);
+    return to_real(n) * p < largest_walked_mean ? binomial_by_inversion(draws, n, p)
+                                                : binomial_by_rejection(draws, n, p);
 }
 
 }  // namespace detail

@@ -56,8 +56,8 @@ inline std::int64_t poisson_by_rejection(Draws& draws, double rate) {
 
 // 0 <= rate <= largest_poisson_rate.
 inline std::int64_t standard_poisson(Draws& draws, double rate) {
-    return rate < 10 ? detail::poisson_by_inversion(draws, rate)
-                     : detail::poisson_by_rejection(draws, rate);
+    return rate < largest_walked_mean ? detail::poisson_by_inversion(draws, rate)
+                                      : detail::poisson_by_rejection(draws, rate);
 }
 
 namespace sample {

@@ -11,6 +11,9 @@
 
 namespace rddl {
 
+// Counts with a smaller mean are found by a walk up their distribution function.
+inline constexpr double largest_walked_mean = 10;
+
 // How far out; floats round 5e8 times as coarsely as doubles.
 template <class Element>
 inline constexpr Element probability_rounding = std::is_same_v<Element, float> ? Element(1e-5)
