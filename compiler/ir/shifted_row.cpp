@@ -165,9 +165,10 @@ std::set<BufferId> read_by_shifts_alone(const Program& program) {
 
 std::set<std::string> tables_on_tapes(const Program& program) {
     std::set<std::string> names;
-    if (!program.moderate) return names;
-    for (const Definition& definition : (*program.moderate)->step)
-        if (shifting_loop(definition)) names.insert((**program.moderate)[definition.target].name);
+    const Program& shifting = program.moderate ? **program.moderate : program;
+    if (!shifting.only_moderate) return names;
+    for (const Definition& definition : shifting.step)
+        if (shifting_loop(definition)) names.insert(shifting[definition.target].name);
     if (!names.empty() && may_fault(program)) names.clear();
     return names;
 }

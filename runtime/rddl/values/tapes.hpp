@@ -208,6 +208,53 @@ RDDL_INLINE void scatter_lanes(const Lanes<R, n>& values, Mask<n> mask,
     for_each_lane(mask, [&](int lane) { first[places[lane]] = values[lane]; });
 }
 
+// All sums are read before one is written.
+template <std::size_t row, class Real, class... Terms>
+RDDL_INLINE auto sums_in_row(const std::array<Real, row>& elements, const Terms&... terms) {
+    const auto sum_at = [&](std::int64_t place) RDDL_INLINE_LAMBDA {
+        if (static_cast<std::uint64_t>(place) >= row) return Real{};
+        return with_terms(place, elements[static_cast<std::size_t>(place)], terms...);
+    };
+    return std::array{sum_at(terms.place)...};
+}
+// Calls look_at(element) for each that it changes.
+template <std::size_t row, class Real, class Look, class... Terms>
+RDDL_INLINE void add_at_places(std::array<Real, row>& elements, const Look& look_at,
+                               const Terms&... terms) {
+    const std::array sums = sums_in_row(elements, terms...);
+    const auto put = [&](std::int64_t place, const Real& sum) RDDL_INLINE_LAMBDA {
+        if (static_cast<std::uint64_t>(place) >= row) return;
+        look_at(sum);
+        elements[static_cast<std::size_t>(place)] = sum;
+    };
+    const Real* sum = sums.data();
+    (put(terms.place, *sum++), ...);
+}
+// Each lane has places of its own.
+template <std::size_t row, class R, int n, class Look, class... Terms>
+RDDL_INLINE void add_at_own_places(std::array<Lanes<R, n>, row>& elements, const Look& look_at,
+                                   const Terms&... terms) {
+    using Int = Lanes<std::int64_t, n>;
+    using Real = Lanes<R, n>;
+    const auto is_there = [](const Int& place) RDDL_INLINE_LAMBDA {
+        return place >= std::int64_t{0} && place < static_cast<std::int64_t>(row);
+    };
+    const auto sum_at = [&](const Int& place) RDDL_INLINE_LAMBDA {
+        const Int somewhere = select(is_there(place), place, Int{0});
+        return with_terms(place, gather_lanes(elements.data(), places_of_lanes(somewhere)),
+                          terms...);
+    };
+    const auto put = [&](const Int& place, const Real& sum) RDDL_INLINE_LAMBDA {
+        const Mask<n> there = is_there(place);
+        look_at(select(there, sum, Real(0.0)));
+        scatter_lanes(sum, there, places_of_lanes(place), elements.data());
+    };
+    // All are read before one is written.
+    const std::array sums{sum_at(terms.place)...};
+    const Real* sum = sums.data();
+    (put(terms.place, *sum++), ...);
+}
+
 }  // namespace detail
 
 // Adds terms to elements of a row that was shifted: these are 0.0 + (term + term + element), with
@@ -215,45 +262,24 @@ RDDL_INLINE void scatter_lanes(const Lanes<R, n>& values, Mask<n> mask,
 template <std::size_t row, class R, class... Terms>
 requires std::is_arithmetic_v<R> RDDL_INLINE void add_to_row(std::array<R, row>& elements,
                                                              const NoTape&, const Terms&... terms) {
-    const auto is_there = [](std::int64_t place) RDDL_INLINE_LAMBDA {
-        return static_cast<std::uint64_t>(place) < row;
-    };
-    // All are read before one is written.
-    const std::array sums{is_there(terms.place)
-                              ? detail::with_terms(terms.place,
-                                                   elements[static_cast<std::size_t>(terms.place)],
-                                                   terms...)
-                              : R{}...};
-    const R* sum = sums.data();
-    ((is_there(terms.place) ? void(elements[static_cast<std::size_t>(terms.place)] = *sum) : void(),
-      ++sum),
-     ...);
+    detail::add_at_places(
+        elements, [](R) {}, terms...);
 }
-// Lanes of packs have places of their own.
+// Where all lanes have the same places, these choose whole elements.
 template <std::size_t row, class R, int n, class SomeTape, class... Terms>
 RDDL_ALWAYS_INLINE void add_to_row(std::array<Lanes<R, n>, row>& elements, SomeTape& tape,
                                    const Terms&... terms) {
-    using Int = Lanes<std::int64_t, n>;
     using Real = Lanes<R, n>;
-    const auto is_there = [](const Int& place) RDDL_INLINE_LAMBDA {
-        return place >= Int{0} && place < Int{static_cast<std::int64_t>(row)};
+    Mask<n> are_great = false;
+    const auto look_at = [&](const Real& sum) RDDL_INLINE_LAMBDA {
+        are_great = are_great || !(absolute(sum) <= Real(moderate));
     };
-    const auto sum_at = [&](const Int& place) RDDL_INLINE_LAMBDA {
-        const Int somewhere = select(is_there(place), place, Int{0});
-        return detail::with_terms(
-            place, detail::gather_lanes(elements.data(), detail::places_of_lanes(somewhere)),
-            terms...);
-    };
-    const auto put = [&](const Int& place, const Real& sum) RDDL_INLINE_LAMBDA {
-        const Mask<n> there = is_there(place);
-        if constexpr (!std::is_empty_v<SomeTape>)
-            tape.has_great |= any(there && !(absolute(sum) <= Real(moderate)));
-        detail::scatter_lanes(sum, there, detail::places_of_lanes(place), elements.data());
-    };
-    // All are read before one is written.
-    const std::array sums{sum_at(terms.place)...};
-    const Real* sum = sums.data();
-    (put(terms.place, *sum++), ...);
+    if ((all(terms.place == Lanes<std::int64_t, n>{terms.place[0]}) && ...))
+        detail::add_at_places(elements, look_at,
+                              Added<std::int64_t, Real>{terms.place[0], terms.term}...);
+    else
+        detail::add_at_own_places(elements, look_at, terms...);
+    if constexpr (!std::is_empty_v<SomeTape>) tape.has_great |= any(are_great);
 }
 
 }  // namespace rddl
