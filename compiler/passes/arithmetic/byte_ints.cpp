@@ -92,6 +92,14 @@ std::optional<Range> range_of_bits(const std::vector<ir::Properties>& properties
     return std::nullopt;
 }
 
+// Nothing if the value of a name comes later than where it is read.
+std::optional<Range> range_of(const std::vector<ir::Properties>& properties,
+                              const std::map<ir::LocalId, ir::NodeId>& values, ir::LocalId local) {
+    const auto value = values.find(local);
+    if (value == values.end() || value->second.index >= properties.size()) return std::nullopt;
+    return properties[value->second.index].range;
+}
+
 // As all_properties, with ranges of words of few bools and of names too.
 std::vector<ir::Properties> properties_with_bits(const ir::Program& program) {
     std::map<ir::LocalId, ir::NodeId> values;
@@ -107,7 +115,7 @@ std::vector<ir::Properties> properties_with_bits(const ir::Program& program) {
             own.range = match(
                 node.form, [&](const ir::Bits& bits) { return range_of_bits(program, bits); },
                 [&](const ir::Apply& apply) { return range_of_bits(all, apply); },
-                [&](const ir::Local& local) { return all.at(values.at(local.local).index).range; },
+                [&](const ir::Local& local) { return range_of(all, values, local.local); },
                 [](const auto&) { return std::optional<Range>(); });
         all.push_back(std::move(own));
     }
