@@ -69,7 +69,7 @@ std::string simulator(const Unit& unit, const DetailsUnit* details) {
                        {"aliases", cpp::record_aliases(unit)},
                        {"partially_observed", unit.program.partially_observed() ? "true" : "false"},
                        {"action_bools", action_bools(unit)},
-                       {"tapes", cpp::tape_functions(unit)},
+                       {"sliding_buffers", cpp::sliding_buffer_functions(unit)},
                        {"reset", cpp::reset_function(unit)},
                        {"step", step.step},
                        {"reward", cpp::reward_function(unit)},

@@ -163,7 +163,7 @@ std::set<BufferId> read_by_shifts_alone(const Program& program) {
     return alone;
 }
 
-std::set<std::string> tables_on_tapes(const Program& program) {
+std::set<std::string> sliding_tables(const Program& program) {
     std::set<std::string> names;
     const Program& shifting = program.moderate ? **program.moderate : program;
     if (!shifting.only_moderate) return names;

@@ -28,8 +28,8 @@
 #include <rddl/values/ops.hpp>
 #include <rddl/values/reductions.hpp>
 #include <rddl/values/search.hpp>
+#include <rddl/values/sliding_tables.hpp>
 #include <rddl/values/tables.hpp>
-#include <rddl/values/tapes.hpp>
 #include <rddl/values/true_elements.hpp>
 #include <rddl/values/unions.hpp>
 

@@ -578,20 +578,21 @@ Expression Expressions::record(ir::BufferId id) {
     if (storage == ir::Storage::Constant) return word(name);
     uses_.records.insert(storage);
     Expression table = word(words_of(storage).parameter + "." + name);
-    if (unit_.names.tapes[id.index].empty()) return table;
-    return tree::call("rddl::window", list(std::move(table), tape(id)));
+    if (unit_.names.sliding_buffers[id.index].empty()) return table;
+    return tree::call("rddl::window", list(std::move(table), sliding_buffer(id)));
 }
 
-Expression Expressions::tape(ir::BufferId id) {
-    if (unit_.names.tapes[id.index].empty()) return word("rddl::no_tape");
+Expression Expressions::sliding_buffer(ir::BufferId id) {
+    if (unit_.names.sliding_buffers[id.index].empty()) return word("rddl::no_sliding_buffer");
     const std::string record = words_of(unit_.program[id].storage).parameter;
-    return word(record + "." + unit_.names.tapes[id.index]);
+    return word(record + "." + unit_.names.sliding_buffers[id.index]);
 }
 
-tree::Expressions Expressions::with_tape(ir::BufferId id) {
+tree::Expressions Expressions::with_sliding_buffer(ir::BufferId id) {
     const ir::Storage storage = unit_.program[id].storage;
     (storage == ir::Storage::Next ? uses_.stored : uses_.records).insert(storage);
-    return {word(words_of(storage).parameter + "." + unit_.names.buffers[id.index]), tape(id)};
+    return {word(words_of(storage).parameter + "." + unit_.names.buffers[id.index]),
+            sliding_buffer(id)};
 }
 
 Expression Expressions::elements(Expression table, std::span<const ir::NodeId> indices) {

@@ -141,9 +141,10 @@ class Expressions {
 
     // A table whole: its name, or the member of the record that holds it.
     tree::Expression record(ir::BufferId buffer);
-    // The tape of a table of the state or the next one; and both, whether or not it lies there.
-    tree::Expression tape(ir::BufferId buffer);
-    tree::Expressions with_tape(ir::BufferId buffer);
+    // The sliding buffer of a table of the state or the next one; and both, whether or not the
+    // table lies there.
+    tree::Expression sliding_buffer(ir::BufferId buffer);
+    tree::Expressions with_sliding_buffer(ir::BufferId buffer);
     // The sum of each object's row of a table; nothing if a node is something else.
     std::optional<tree::Expression> sum_of_row(const ir::Node& node);
 

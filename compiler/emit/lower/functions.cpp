@@ -505,8 +505,8 @@ std::string moderate_test(const Unit& unit) {
         const std::string element =
             words_of(storage).parameter + "." + unit.names.buffers[id.index];
         tree::Expressions table = {word(element)};
-        if (const std::string& tape = unit.names.tapes[id.index]; !tape.empty())
-            table.push_back(word(words_of(storage).parameter + "." + tape));
+        if (const std::string& sliding = unit.names.sliding_buffers[id.index]; !sliding.empty())
+            table.push_back(word(words_of(storage).parameter + "." + sliding));
         const tree::Expression test = tree::call("rddl::is_moderate<L>", std::move(table));
         all = all ? tree::operation(plain_operator(Operator::And), {*all, test}) : test;
     }

@@ -19,17 +19,17 @@ bool steps_moderately(const Unit& unit) {
 }
 
 // Both steps have the same records of the state.
-void take_tapes(const Unit& around, Unit& unit) {
-    std::map<std::string, std::string> tapes;
+void take_sliding_buffers(const Unit& around, Unit& unit) {
+    std::map<std::string, std::string> sliding_buffers;
     for (std::size_t index = 0; index < around.program.buffers.size(); ++index)
-        if (const std::string& tape = around.names.tapes[index]; !tape.empty())
-            tapes[around.program.buffers[index].name] = tape;
+        if (const std::string& sliding = around.names.sliding_buffers[index]; !sliding.empty())
+            sliding_buffers[around.program.buffers[index].name] = sliding;
     for (std::size_t index = 0; index < unit.program.buffers.size(); ++index) {
         const ir::Buffer& buffer = unit.program.buffers[index];
-        const auto tape = tapes.find(buffer.name);
-        if (tape != tapes.end() &&
+        const auto sliding = sliding_buffers.find(buffer.name);
+        if (sliding != sliding_buffers.end() &&
             is_one_of(buffer.storage, {ir::Storage::State, ir::Storage::Next}))
-            unit.names.tapes[index] = tape->second;
+            unit.names.sliding_buffers[index] = sliding->second;
     }
 }
 
@@ -39,7 +39,7 @@ std::string moderate_section(const Unit& around) {
     if (!steps_moderately(around)) return "";
     Unit unit(**around.program.moderate, around.sources, around.options);
     unit.names.space = "moderate";
-    take_tapes(around, unit);
+    take_sliding_buffers(around, unit);
     const StepFunctions step = step_functions(unit);
     const std::string text =
         fill_slots(templates::moderate, {{"tables", tables(unit, &around)},

@@ -270,18 +270,18 @@ void FunctionBody::statement(const ir::Store& store) {
     expressions_.forget(before);
 }
 
-// rddl::shift<time_count>(context, state.flow, state.flow_tape, next.flow, next.flow_tape);
+// rddl::shift<time_count>(context, state.flow, state.flow_buffer, next.flow, next.flow_buffer);
 void FunctionBody::shift(const ir::Loop& loop) {
     const ir::ShiftedRow row = ir::shifted_row(program(), loop).value();
     const std::string size = expressions_.unit().size_of(program()[loop.variable]);
     expressions_.uses().context = true;
     tree::Expressions arguments = {tree::word(expressions_.context())};
-    append(arguments, expressions_.with_tape(row.from));
-    append(arguments, expressions_.with_tape(row.target));
+    append(arguments, expressions_.with_sliding_buffer(row.from));
+    append(arguments, expressions_.with_sliding_buffer(row.target));
     statements_.push_back({tree::call("rddl::shift<" + size + ">", std::move(arguments))});
 }
 
-// rddl::add_to_row(rddl::window(next.flow, next.flow_tape)[u], next.flow_tape,
+// rddl::add_to_row(rddl::window(next.flow, next.flow_buffer)[u], next.flow_buffer,
 //                  rddl::Added<Int, Real>{scratch.due[u], scratch.in[u]});
 void FunctionBody::add_to_row(const ir::Loop& loop) {
     const auto before = expressions_.mark();
@@ -289,7 +289,7 @@ void FunctionBody::add_to_row(const ir::Loop& loop) {
     const std::string type = "rddl::Added<" + expressions_.type(ir::Scalar::Int) + ", " +
                              expressions_.type(ir::Scalar::Real) + ">";
     tree::Expressions arguments = {expressions_.target(row.target, row.indices),
-                                   expressions_.tape(row.target)};
+                                   expressions_.sliding_buffer(row.target)};
     const Use use{type.size()};
     for (const ir::PlacedTerm& each : row.terms) {
         prepare(use, each.value);

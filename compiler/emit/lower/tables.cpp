@@ -139,17 +139,17 @@ std::string objects(const Unit& unit) {
     return section("objects", tree::print(counts, 0));
 }
 
-// [[no_unique_address]] rddl::Tape<L, std::array<...>> flow_tape;
-tree::Block tapes(const Unit& unit) {
+// [[no_unique_address]] rddl::SlidingBuffer<L, std::array<...>> flow_buffer;
+tree::Block sliding_buffers(const Unit& unit) {
     tree::Block members;
     for (std::size_t index = 0; index < unit.program.buffers.size(); ++index) {
         const ir::Buffer& buffer = unit.program.buffers[index];
-        const std::string& name = unit.names.tapes[index];
+        const std::string& name = unit.names.sliding_buffers[index];
         if (name.empty() || buffer.storage != ir::Storage::State) continue;
         const std::string table =
             array_type(unit, buffer, "typename L::" + lane_type(buffer.scalar));
         members.push_back({tree::Expression{
-            tree::Declared{"[[no_unique_address]] rddl::Tape<L, " + table + ">", name}}});
+            tree::Declared{"[[no_unique_address]] rddl::SlidingBuffer<L, " + table + ">", name}}});
     }
     return members;
 }
@@ -165,7 +165,7 @@ std::string record(const Unit& unit, const std::string& name, ir::Storage storag
             {.form = tree::Expression{tree::Declared{type, unit.names.buffers[index]}},
              .remark = unit.where(buffer.span)});
     }
-    if (storage == ir::Storage::State) append(result.members, tapes(unit));
+    if (storage == ir::Storage::State) append(result.members, sliding_buffers(unit));
     return tree::print({{.form = std::move(result), .is_template = true}}, 0);
 }
 
@@ -238,21 +238,22 @@ std::string records(const Unit& unit) {
     return section("records", text);
 }
 
-std::string tape_functions(const Unit& unit) {
+std::string sliding_buffer_functions(const Unit& unit) {
     std::string sizes, calls;
     for (std::size_t index = 0; index < unit.program.buffers.size(); ++index) {
-        const std::string& tape = unit.names.tapes[index];
-        if (tape.empty() || unit.program.buffers[index].storage != ir::Storage::State) continue;
+        const std::string& sliding = unit.names.sliding_buffers[index];
+        if (sliding.empty() || unit.program.buffers[index].storage != ir::Storage::State) continue;
         sizes += (sizes.empty() ? "" : " +\n               ") +
-                 fmt::format("rddl::bytes_of_tape<decltype(State<L>::{})>", tape);
+                 fmt::format("rddl::bytes_of_sliding_buffer<decltype(State<L>::{})>", sliding);
         calls += fmt::format("        rddl::settle(state.{}, state.{});\n",
-                             unit.names.buffers[index], tape);
+                             unit.names.buffers[index], sliding);
     }
     if (calls.empty()) return "";
-    return "    // Tables of the state that may lie on tapes (rddl/values/tapes.hpp), behind its "
-           "other\n"
-           "    // values: the bytes of the tapes, and a state without such tables.\n"
-           "    template <class L>\n    static constexpr std::size_t tapes_size() {\n        "
+    return "    // Tables of the state that may slide along buffers behind its other values\n"
+           "    // (rddl/values/sliding_tables.hpp): the bytes of the buffers, and a state whose\n"
+           "    // tables are in their places.\n"
+           "    template <class L>\n    static constexpr std::size_t sliding_buffers_size() {\n    "
+           "    "
            "return " +
            sizes + ";\n    }\n    template <class L>\n    static void settle(State<L>& state) {\n" +
            calls + "    }\n";

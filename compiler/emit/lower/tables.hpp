@@ -29,8 +29,8 @@ std::string tables(const Unit& unit, const Unit* around = nullptr);
 // A struct of the buffers of one storage.
 std::string record(const Unit& unit, const std::string& name, ir::Storage storage);
 std::string records(const Unit& unit);
-// The functions of a simulator for the tapes in a record of the state, if it has some.
-std::string tape_functions(const Unit& unit);
+// The functions of a simulator for the sliding buffers in a record of the state, if it has some.
+std::string sliding_buffer_functions(const Unit& unit);
 std::string asserts(const Unit& unit);
 
 }  // namespace rddlc::cpp

@@ -18,7 +18,7 @@ constexpr Mark count_mark{"", "_count"};
 constexpr Mark table_mark{"", "_"};
 constexpr Mark initial_mark{"initial_", ""};
 constexpr Mark function_mark{"set_", ""};
-constexpr Mark tape_mark{"", "_tape"};
+constexpr Mark sliding_buffer_mark{"", "_buffer"};
 
 // Each record has a region of its own, except that Next is State again, and NextMemory Memory.
 struct RecordScopes {
@@ -69,16 +69,17 @@ void name_members(const ir::Program& program, Names& all) {
         const Storage current = is_state ? Storage::State : Storage::Memory;
         names[index] = names[currents.at({current, buffer.name})];
     }
-    all.tapes.resize(program.buffers.size());
-    const std::set<std::string> shifted = ir::tables_on_tapes(program);
+    all.sliding_buffers.resize(program.buffers.size());
+    const std::set<std::string> shifted = ir::sliding_tables(program);
     for (std::size_t index = 0; index < program.buffers.size(); ++index)
         if (program.buffers[index].storage == Storage::State &&
             shifted.contains(program.buffers[index].name))
-            all.tapes[index] = records.state.claim(program.buffers[index].name, tape_mark);
+            all.sliding_buffers[index] =
+                records.state.claim(program.buffers[index].name, sliding_buffer_mark);
     for (std::size_t index = 0; index < program.buffers.size(); ++index)
         if (program.buffers[index].storage == Storage::Next)
-            all.tapes[index] =
-                all.tapes[currents.at({Storage::State, program.buffers[index].name})];
+            all.sliding_buffers[index] =
+                all.sliding_buffers[currents.at({Storage::State, program.buffers[index].name})];
 }
 
 }  // namespace

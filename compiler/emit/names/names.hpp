@@ -40,9 +40,9 @@ struct Names {
     std::vector<std::string> counts;   // by type: how many objects it has
     std::vector<std::string> buffers;  // by BufferId: a table, or a member of a record
     std::vector<std::string> initial;  // by BufferId: the table of its first values, or empty
-    // By BufferId: the member of a record of the state that is the tape of one of its tables
-    // (rddl/values/tapes.hpp), or empty.
-    std::vector<std::string> tapes;
+    // By BufferId: the member of a record of the state that is the sliding buffer of one
+    // of its tables (rddl/values/sliding_tables.hpp), or empty.
+    std::vector<std::string> sliding_buffers;
     std::vector<std::string> functions;  // by index into Program::step: what fills its buffer
     std::vector<std::string> policy_functions;  // by index into Policy::act
     Scope file;                                 // what local names must differ from

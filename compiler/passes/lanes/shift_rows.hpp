@@ -6,9 +6,9 @@
 //             next.flow[u, t] = 0.0 + (...)                  next.flow[u, t] = 0.0 + (...)
 //
 // Emitted code moves whole tables, in packs of programs that cannot fault without moving them
-// (rddl/values/tapes.hpp), and adds terms to the elements that have some. What the state was is
-// lost then, so nothing reads it later in the step. The rows have as many reals as a register, or
-// more, and several for each term.
+// (rddl/values/sliding_tables.hpp), and adds terms to the elements that have some. What the state
+// was is lost then, so nothing reads it later in the step. The rows have as many reals as a
+// register, or more, and several for each term.
 #pragma once
 
 #include "ir/ir.hpp"

@@ -29,7 +29,7 @@ class AnyEngine {
           action_size_(engine.action_size()),
           observation_size_(engine.observation_size()),
           scratch_size_(engine.scratch_size()),
-          tape_size_(rddl::tape_size(engine)),
+          sliding_buffers_size_(rddl::sliding_buffers_size(engine)),
           has_policy_(rddl::has_policy(engine)),
           memory_size_(rddl::memory_size(engine)) {
         reset_some_ = [](const void* self, const Columns& columns, Bool lanes,
@@ -52,7 +52,7 @@ class AnyEngine {
         initial_state_ = [](const void* self, std::byte* state) {
             rddl::initial_state(of<E>(self), state);
         };
-        if (tape_size_ > 0)
+        if (sliding_buffers_size_ > 0)
             settle_ = [](const void* self, std::byte* state) {
                 rddl::settle(of<E>(self), state);
             };
@@ -79,7 +79,7 @@ class AnyEngine {
     std::size_t action_size() const { return action_size_; }
     std::size_t observation_size() const { return observation_size_; }
     std::size_t scratch_size() const { return scratch_size_; }
-    std::size_t tape_size() const { return tape_size_; }
+    std::size_t sliding_buffers_size() const { return sliding_buffers_size_; }
 
     // See rddl::settle.
     void settle(std::byte* state) const {
@@ -132,7 +132,7 @@ class AnyEngine {
     }
 
     const void* engine_;
-    std::size_t state_size_, action_size_, observation_size_, scratch_size_, tape_size_;
+    std::size_t state_size_, action_size_, observation_size_, scratch_size_, sliding_buffers_size_;
     bool has_policy_;
     std::size_t memory_size_;
 

@@ -190,7 +190,7 @@ class Functions {
             const Columns columns = columns_of<typename OneEngine::Lane>(problem, role, row_size);
             return columns.block_size == static_cast<std::int64_t>(block_size);
         };
-        const std::size_t state_size = engine.state_size() - tape_size(engine);
+        const std::size_t state_size = engine.state_size() - sliding_buffers_size(engine);
         const std::size_t observation_size =
             problem.partially_observed != 0 ? engine.observation_size() : state_size;
         return agree(RDDL_STATE, problem.state_size, state_size) &&

@@ -111,15 +111,15 @@ struct Compiled {
         return Simulator::partially_observed ? record_size<Observation> : record_size<State>;
     }
 
-    static constexpr bool has_tapes = L::width > 1 && requires(State& state) {
+    static constexpr bool has_sliding_buffers = L::width > 1 && requires(State& state) {
         Simulator::settle(state);
     };
-    static constexpr std::size_t tape_size() {
-        if constexpr (has_tapes) return Simulator::template tapes_size<L>();
+    static constexpr std::size_t sliding_buffers_size() {
+        if constexpr (has_sliding_buffers) return Simulator::template sliding_buffers_size<L>();
         return 0;
     }
     static void settle(std::byte* state) {
-        if constexpr (has_tapes) Simulator::settle(as<State>(state));
+        if constexpr (has_sliding_buffers) Simulator::settle(as<State>(state));
     }
 
     static void reset(std::byte* state, Context<L>& context) {

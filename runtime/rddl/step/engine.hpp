@@ -86,16 +86,17 @@ void initial_state(const E& engine, std::byte* state) {
     }
 }
 
-// Tables of a state may lie on tapes (rddl/values/tapes.hpp), behind its other values. They come
-// back to where the columns have them, before others than the engine read or write them.
+// Tables of a state may lie in sliding buffers behind its other values
+// (rddl/values/sliding_tables.hpp). They come back to where the columns have them, before others
+// than the engine read or write them.
 template <StateEngine E>
 RDDL_INLINE void settle(const E& engine, std::byte* state) {
     if constexpr (requires { engine.settle(state); }) engine.settle(state);
 }
-// Bytes of tapes in a record.
+// Bytes of sliding buffers in a record.
 template <StateEngine E>
-constexpr std::size_t tape_size(const E& engine) {
-    if constexpr (requires { engine.tape_size(); }) return engine.tape_size();
+constexpr std::size_t sliding_buffers_size(const E& engine) {
+    if constexpr (requires { engine.sliding_buffers_size(); }) return engine.sliding_buffers_size();
     return 0;
 }
 

@@ -1,10 +1,10 @@
 // Tables of reals whose elements move one place towards the front of their rows in each step.
 //
 // One environment moves the elements. Packs, whose tables take that many times the memory, leave
-// them where they are: both records of a block use one tape, on which the table begins one element
-// further on in each step, so that the rows end where others have begun. At the end of the tape all
-// elements are moved back. Records whose tables lie on tapes are settled before others than emitted
-// code read or write them.
+// them where they are: both records of a block use one sliding buffer, in which the table begins
+// one element further on in each step, so that the rows end where others have begun. At the end of
+// the buffer all elements are moved back. Records whose tables lie in sliding buffers are settled
+// before others than emitted code read or write them.
 #pragma once
 
 #include <rddl/lanes/lane.hpp>
@@ -24,57 +24,60 @@
 namespace rddl {
 
 // Stands in a record of the state behind its tables.
-struct NoTape {};
-inline constexpr NoTape no_tape{};
+struct NoSlidingBuffer {};
+inline constexpr NoSlidingBuffer no_sliding_buffer{};
 template <class Real, class Table>
-struct LongTape {
+struct SlidingBufferOf {
     static constexpr std::size_t count = sizeof(Table) / sizeof(Real);
 
     std::int64_t place;  // bytes from the record's table to where it is now; 0: it is there
     std::int64_t
-        steps;       // before it reaches the end of the tape; if it is there, since it was settled
-    bool has_great;  // an element on the tape may be no moderate number
+        steps;  // before it reaches the end of the buffer; if it is there, since it was settled
+    bool has_great;            // an element there may be no moderate number
     Real elements[2 * count];  // tables of either record may lie here
 };
 template <class L, class Table>
-using Tape = std::conditional_t<L::width == 1, NoTape, LongTape<typename L::Real, Table>>;
+using SlidingBuffer =
+    std::conditional_t<L::width == 1, NoSlidingBuffer, SlidingBufferOf<typename L::Real, Table>>;
 
 // Bytes of a record.
-template <class SomeTape>
-inline constexpr std::size_t bytes_of_tape = std::is_empty_v<SomeTape> ? 0 : sizeof(SomeTape);
+template <class Buffer>
+inline constexpr std::size_t bytes_of_sliding_buffer = std::is_empty_v<Buffer> ? 0 : sizeof(Buffer);
 
 // The table of a record.
 template <class Table>
-RDDL_INLINE Table& window(Table& table, const NoTape&) {
+RDDL_INLINE Table& window(Table& table, const NoSlidingBuffer&) {
     return table;
 }
 template <class Real, class Table>
-RDDL_ALWAYS_INLINE Table& window(Table& table, const LongTape<Real, Table>& tape) {
-    return *reinterpret_cast<Table*>(reinterpret_cast<std::byte*>(&table) + tape.place);
+RDDL_ALWAYS_INLINE Table& window(Table& table, const SlidingBufferOf<Real, Table>& buffer) {
+    return *reinterpret_cast<Table*>(reinterpret_cast<std::byte*>(&table) + buffer.place);
 }
 template <class Real, class Table>
-RDDL_ALWAYS_INLINE const Table& window(const Table& table, const LongTape<Real, Table>& tape) {
-    return *reinterpret_cast<const Table*>(reinterpret_cast<const std::byte*>(&table) + tape.place);
+RDDL_ALWAYS_INLINE const Table& window(const Table& table,
+                                       const SlidingBufferOf<Real, Table>& buffer) {
+    return *reinterpret_cast<const Table*>(reinterpret_cast<const std::byte*>(&table) +
+                                           buffer.place);
 }
 
-// The table comes back from a tape, if it is on one.
+// The table comes back from a buffer, if it is in one.
 template <class Table>
-void settle(Table&, const NoTape&) {}
+void settle(Table&, const NoSlidingBuffer&) {}
 template <class Real, class Table>
-void settle(Table& table, LongTape<Real, Table>& tape) {
-    if (tape.place != 0) table = window(table, tape);
-    tape.place = tape.steps = 0;
+void settle(Table& table, SlidingBufferOf<Real, Table>& buffer) {
+    if (buffer.place != 0) table = window(table, buffer);
+    buffer.place = buffer.steps = 0;
 }
-// A table that is settled again after a few steps had better not be moved to a tape.
-inline constexpr std::int64_t steps_before_tape = 4;
+// A table that is settled again after a few steps had better not be moved to a buffer.
+inline constexpr std::int64_t steps_before_sliding = 4;
 
-// The same as is_moderate, for a table that may lie on a tape.
-template <class L, class Table, class SomeTape>
-RDDL_ALWAYS_INLINE typename L::Bool is_moderate(const Table& table, const SomeTape& tape) {
-    if constexpr (!std::is_empty_v<SomeTape>)
-        if (tape.place != 0 && !tape.has_great) [[likely]]
+// The same as is_moderate, for a table that may lie in a sliding buffer.
+template <class L, class Table, class Buffer>
+RDDL_ALWAYS_INLINE typename L::Bool is_moderate(const Table& table, const Buffer& buffer) {
+    if constexpr (!std::is_empty_v<Buffer>)
+        if (buffer.place != 0 && !buffer.has_great) [[likely]]
             return true;
-    return is_moderate<L>(window(table, tape));
+    return is_moderate<L>(window(table, buffer));
 }
 
 namespace detail {
@@ -108,10 +111,10 @@ RDDL_INLINE void clear_ends(Real* table) {
 
 // In rows of so many elements, each one of `to` becomes 0.0 + the one of `from` behind it, and the
 // last one 0.0. Both are tables of the records of a state and its next one. That of the state is
-// lost: where all lanes run, it lies on the same tape.
+// lost: where all lanes run, it lies in the same buffer.
 template <std::size_t row, class L, class Table>
-RDDL_INLINE void shift(const Context<L>&, const Table& from, const NoTape&, Table& to,
-                       const NoTape&) {
+RDDL_INLINE void shift(const Context<L>&, const Table& from, const NoSlidingBuffer&, Table& to,
+                       const NoSlidingBuffer&) {
     using Real = typename L::Real;
     constexpr std::size_t count = sizeof(Table) / sizeof(Real);
     Real* const elements = const_cast<Real*>(detail::first_real<Real>(to));
@@ -120,25 +123,25 @@ RDDL_INLINE void shift(const Context<L>&, const Table& from, const NoTape&, Tabl
 }
 template <std::size_t row, class L, class Real, class Table>
 RDDL_ALWAYS_INLINE void shift(const Context<L>& context, const Table& from,
-                              const LongTape<Real, Table>& from_tape, Table& to,
-                              LongTape<Real, Table>& tape) {
-    constexpr std::size_t count = LongTape<Real, Table>::count;
-    const Real* const source = detail::first_real<Real>(window(from, from_tape));
+                              const SlidingBufferOf<Real, Table>& from_buffer, Table& to,
+                              SlidingBufferOf<Real, Table>& buffer) {
+    constexpr std::size_t count = SlidingBufferOf<Real, Table>::count;
+    const Real* const source = detail::first_real<Real>(window(from, from_buffer));
     const bool all_run = all(context.active);
-    const bool is_on_tape = from_tape.place != 0;
-    Real* elements = tape.elements;
-    if (all_run && is_on_tape && from_tape.steps > 0) [[likely]] {
+    const bool slides = from_buffer.place != 0;
+    Real* elements = buffer.elements;
+    if (all_run && slides && from_buffer.steps > 0) [[likely]] {
         elements = const_cast<Real*>(source + 1);
-        tape.steps = from_tape.steps - 1;
+        buffer.steps = from_buffer.steps - 1;
     } else {
-        const bool goes_on_tape = all_run && (is_on_tape || from_tape.steps >= steps_before_tape);
-        if (!goes_on_tape) elements = const_cast<Real*>(detail::first_real<Real>(to));
+        const bool will_slide = all_run && (slides || from_buffer.steps >= steps_before_sliding);
+        if (!will_slide) elements = const_cast<Real*>(detail::first_real<Real>(to));
         detail::move_to_front<count>(source, elements);
-        tape.steps =
-            goes_on_tape ? static_cast<std::int64_t>(count) : (all_run ? from_tape.steps + 1 : 0);
+        buffer.steps =
+            will_slide ? static_cast<std::int64_t>(count) : (all_run ? from_buffer.steps + 1 : 0);
     }
-    tape.place = reinterpret_cast<std::byte*>(elements) - reinterpret_cast<std::byte*>(&to);
-    tape.has_great = false;
+    buffer.place = reinterpret_cast<std::byte*>(elements) - reinterpret_cast<std::byte*>(&to);
+    buffer.has_great = false;
     detail::clear_ends<row, count>(elements);
 }
 
@@ -261,13 +264,14 @@ RDDL_INLINE void add_at_own_places(std::array<Lanes<R, n>, row>& elements, const
 // 0.0 in place of the terms of other places.
 template <std::size_t row, class R, class... Terms>
 requires std::is_arithmetic_v<R> RDDL_INLINE void add_to_row(std::array<R, row>& elements,
-                                                             const NoTape&, const Terms&... terms) {
+                                                             const NoSlidingBuffer&,
+                                                             const Terms&... terms) {
     detail::add_at_places(
         elements, [](R) {}, terms...);
 }
 // Where all lanes have the same places, these choose whole elements.
-template <std::size_t row, class R, int n, class SomeTape, class... Terms>
-RDDL_ALWAYS_INLINE void add_to_row(std::array<Lanes<R, n>, row>& elements, SomeTape& tape,
+template <std::size_t row, class R, int n, class Buffer, class... Terms>
+RDDL_ALWAYS_INLINE void add_to_row(std::array<Lanes<R, n>, row>& elements, Buffer& buffer,
                                    const Terms&... terms) {
     using Real = Lanes<R, n>;
     Mask<n> are_great = false;
@@ -279,7 +283,7 @@ RDDL_ALWAYS_INLINE void add_to_row(std::array<Lanes<R, n>, row>& elements, SomeT
                               Added<std::int64_t, Real>{terms.place[0], terms.term}...);
     else
         detail::add_at_own_places(elements, look_at, terms...);
-    if constexpr (!std::is_empty_v<SomeTape>) tape.has_great |= any(are_great);
+    if constexpr (!std::is_empty_v<Buffer>) buffer.has_great |= any(are_great);
 }
 
 }  // namespace rddl

@@ -1,4 +1,4 @@
-#include <rddl/values/tapes.hpp>
+#include <rddl/values/sliding_tables.hpp>
 
 #include <gtest/gtest.h>
 
@@ -15,12 +15,13 @@ constexpr std::size_t row = 9, rows = 3;
 template <class L>
 using Table = std::array<std::array<typename L::Real, row>, rows>;
 
-// Two records of a state, which take turns. Packs of programs that may fault have no tapes either.
-template <class L, class SomeTape = Tape<L, Table<L>>>
+// Two records of a state, which take turns. Packs of programs that may fault have no sliding
+// buffers either.
+template <class L, class Buffer = SlidingBuffer<L, Table<L>>>
 struct Records {
     struct Record {
         Table<L> table{};
-        [[no_unique_address]] SomeTape tape{};
+        [[no_unique_address]] Buffer buffer{};
     };
     std::array<Record, 2> of{};
     std::size_t current = 0;
@@ -31,9 +32,9 @@ struct Records {
               const std::array<typename L::Real, 2>& terms) {
         Record& from = of[current];
         Record& to = of[1 - current];
-        shift<row>(context, from.table, from.tape, to.table, to.tape);
+        shift<row>(context, from.table, from.buffer, to.table, to.buffer);
         for (std::size_t r = 0; r < rows; ++r)
-            add_to_row(window(to.table, to.tape)[r], to.tape,
+            add_to_row(window(to.table, to.buffer)[r], to.buffer,
                        Added<typename L::Int, typename L::Real>{places[0], terms[0]},
                        Added<typename L::Int, typename L::Real>{places[1], terms[1]});
         current = 1 - current;
@@ -65,14 +66,14 @@ void expect_same(const Real& a, const Real& b) {
     EXPECT_EQ(bits_of(a), bits_of(b)) << a << ' ' << b;
 }
 
-// Many steps, so that the table comes to the end of the tape; some are settled, and some do not run
-// in all lanes, as those where an episode is over.
-template <class L, class SomeTape = Tape<L, Table<L>>>
+// Many steps, so that the table comes to the end of the buffer; some are settled, and some do not
+// run in all lanes, as those where an episode is over.
+template <class L, class Buffer = SlidingBuffer<L, Table<L>>>
 void expect_same_as_plain() {
     using R = typename L::Element;
     constexpr int n = L::width;
     std::mt19937 random(7);
-    Records<L, SomeTape> records;
+    Records<L, Buffer> records;
     std::array<PlainTable<R>, static_cast<std::size_t>(n)> plain{};
     for (std::size_t r = 0; r < rows; ++r)
         for (std::size_t t = 0; t < row; ++t)
@@ -84,7 +85,7 @@ void expect_same_as_plain() {
     for (int step = 0; step < 600; ++step) {
         const bool all_run = random() % 32 != 0;
         typename L::Bool active{true};
-        if (!all_run || random() % 64 == 0) settle(records.state().table, records.state().tape);
+        if (!all_run || random() % 64 == 0) settle(records.state().table, records.state().buffer);
         if (!all_run) set_lane(active, static_cast<int>(random() % n), false);
         std::array<typename L::Int, 2> places{};
         std::array<typename L::Real, 2> terms{};
@@ -109,50 +110,50 @@ void expect_same_as_plain() {
         for (std::size_t r = 0; r < rows; ++r)
             for (std::size_t t = 0; t < row; ++t)
                 for (int lane = 0; lane < n; ++lane)
-                    expect_same<R>(get_lane(window(state.table, state.tape)[r][t], lane),
+                    expect_same<R>(get_lane(window(state.table, state.buffer)[r][t], lane),
                                    plain[static_cast<std::size_t>(lane)][r][t]);
     }
 }
 
-TEST(Tapes, MoveAndAddAsLoopsDo) {
+TEST(SlidingTables, MoveAndAddAsLoopsDo) {
     expect_same_as_plain<Scalar>();
     expect_same_as_plain<ScalarOf<float>>();
     expect_same_as_plain<Pack<16>>();
     expect_same_as_plain<Pack<8>>();
     expect_same_as_plain<Pack<16, float>>();
-    expect_same_as_plain<Pack<16>, NoTape>();
+    expect_same_as_plain<Pack<16>, NoSlidingBuffer>();
 }
 
-TEST(Tapes, AreSharedWhileAllLanesRun) {
+TEST(SlidingTables, AreSharedWhileAllLanesRun) {
     Records<Pack<16>> records;
-    for (int step = 0; step < steps_before_tape; ++step) {
+    for (int step = 0; step < steps_before_sliding; ++step) {
         records.step(running<Pack<16>>(true), {}, {});
-        EXPECT_EQ(records.state().tape.place, 0) << step;
+        EXPECT_EQ(records.state().buffer.place, 0) << step;
     }
     records.step(running<Pack<16>>(true), {}, {});
-    EXPECT_NE(records.state().tape.place, 0);
-    const auto* const elements = &window(records.state().table, records.state().tape)[0][0];
+    EXPECT_NE(records.state().buffer.place, 0);
+    const auto* const elements = &window(records.state().table, records.state().buffer)[0][0];
     records.step(running<Pack<16>>(true), {}, {});
-    EXPECT_EQ((&window(records.state().table, records.state().tape)[0][0]), elements + 1);
+    EXPECT_EQ((&window(records.state().table, records.state().buffer)[0][0]), elements + 1);
     records.step(running<Pack<16>>(Mask<16>::of_bits(7)), {}, {});
-    EXPECT_EQ(records.state().tape.place, 0);
+    EXPECT_EQ(records.state().buffer.place, 0);
 }
 
-TEST(Tapes, KnowGreatElements) {
+TEST(SlidingTables, KnowGreatElements) {
     using L = Pack<16>;
     Records<L> records;
     const auto is_moderate_now = [&] {
-        return is_moderate<L>(records.state().table, records.state().tape);
+        return is_moderate<L>(records.state().table, records.state().buffer);
     };
-    for (int step = 0; step <= steps_before_tape; ++step)
+    for (int step = 0; step <= steps_before_sliding; ++step)
         records.step(running<L>(true), {}, {L::Real{moderate}, L::Real{0.0}});
-    EXPECT_NE(records.state().tape.place, 0);
+    EXPECT_NE(records.state().buffer.place, 0);
     EXPECT_TRUE(all(is_moderate_now()));
     L::Real term{0.0};
     term.set(5, std::numeric_limits<double>::infinity());
     records.step(running<L>(true), {L::Int{3}, L::Int{4}}, {L::Real{0.0}, term});
     EXPECT_EQ(is_moderate_now().bits, 0xffffU & ~(1U << 5));
-    settle(records.state().table, records.state().tape);
+    settle(records.state().table, records.state().buffer);
     EXPECT_EQ(is_moderate_now().bits, 0xffffU & ~(1U << 5));
 }
 
