@@ -133,7 +133,10 @@ class ThresholdTabulation {
                     if (!thresholds) return std::nullopt;
                     rows.thresholds.push_back(std::move(*thresholds));
                 }
-                return interval_among(place, std::move(rows), of_weights, weights.size());
+                rows.trim(program_.real);
+                // Index 0 gets what is missing to 1.
+                const bool may_reach_all = rows.length() == weights.size();
+                return search(place, rows, of_weights, may_reach_all ? 0 : end_of(rows));
             });
     }
 
@@ -146,37 +149,23 @@ class ThresholdTabulation {
             parameters, most_count_steps, [&](const ParameterRows& rows) -> Replacement {
                 const auto counts = counts_by_inversion(sample.distribution, rows.values);
                 if (!counts) return std::nullopt;
-                const ir::NodeId count = count_among(sample.place, *counts, rows);
+                // The last step of a walk that rounding keeps from ending may lead to a greater
+                // count.
+                const ir::NodeId count =
+                    search(sample.place, Rows{counts->thresholds}, rows, counts->last);
                 if (!counts->are_failures) return count;
                 return builder_.apply(Operator::Subtract, {parameters.front(), count});
             });
     }
 
-    ir::NodeId interval_among(ir::Place place, Rows rows, const ParameterRows& keys,
-                              std::size_t weights) {
-        rows.trim(program_.real);
-        const ir::NodeId zero = builder_.constant(std::int64_t{0});
-        const ir::NodeId interval = rows.length() == 0 ? zero : search(place, rows, keys);
-        if (rows.length() < weights) return interval;
-        // Index 0 gets what is missing to 1.
-        const auto length = builder_.constant(static_cast<std::int64_t>(rows.length()));
-        return builder_.select(builder_.apply(Operator::Less, {interval, length}), interval, zero);
+    static std::int64_t end_of(const Rows& rows) {
+        return static_cast<std::int64_t>(rows.length());
     }
-
-    // The last step of a walk that rounding keeps from ending may lead to a greater count.
-    ir::NodeId count_among(ir::Place place, const CountSteps& counts, const ParameterRows& keys) {
-        const Rows rows{counts.thresholds};
-        if (rows.length() == 0) return builder_.constant(std::int64_t{0});
-        const ir::NodeId interval = search(place, rows, keys);
-        const auto length = static_cast<std::int64_t>(rows.length());
-        if (counts.last == length) return interval;
-        return builder_.select(
-            builder_.apply(Operator::Less, {interval, builder_.constant(length)}), interval,
-            builder_.constant(counts.last));
-    }
-
-    ir::NodeId search(ir::Place place, const Rows& rows, const ParameterRows& keys) {
+    // The number of thresholds that are reached, with `last` in place of all.
+    ir::NodeId search(ir::Place place, const Rows& rows, const ParameterRows& keys,
+                      std::int64_t last) {
         ++report_["draws made searches among thresholds"];
+        if (rows.length() == 0) return builder_.constant(std::int64_t{0});
         std::vector<std::int64_t> shape;
         std::vector<ir::NodeId> row;
         for (const ir::VariableId variable : keys.variables) {
@@ -190,7 +179,12 @@ class ThresholdTabulation {
                 builder_.apply(Operator::Subtract, {value, builder_.constant(key.least)}));
         }
         place.index = rewritten(place.index);
-        return builder_.interval(place, new_table(rows, std::move(shape)), std::move(row));
+        const ir::NodeId interval =
+            builder_.interval(place, new_table(rows, std::move(shape)), std::move(row));
+        if (last == end_of(rows)) return interval;
+        const ir::NodeId end = builder_.constant(end_of(rows));
+        return builder_.select(builder_.apply(Operator::Less, {interval, end}), interval,
+                               builder_.constant(last));
     }
 
     ir::BufferId new_table(const Rows& rows, std::vector<std::int64_t> shape) {

@@ -14,6 +14,17 @@ namespace rddl {
 
 namespace detail {
 
+// For so few values that a loop over registers would take longer to begin than to run.
+RDDL_INLINE bool are_few_objects(const std::byte* values, std::int64_t count,
+                                 std::int64_t object_count) {
+    bool all = true;
+    for (std::int64_t k = 0; k < count; ++k) {
+        std::uint64_t value;
+        std::memcpy(&value, values + 8 * k, sizeof value);
+        all &= value < static_cast<std::uint64_t>(object_count);
+    }
+    return all;
+}
 inline bool are_objects(const std::byte* values, std::int64_t count, std::int64_t object_count) {
     using simd::Words;
     const auto limit = static_cast<std::uint64_t>(object_count);
@@ -26,12 +37,7 @@ inline bool are_objects(const std::byte* values, std::int64_t count, std::int64_
     }
     bool all = true;
     for (int i = 0; i < simd::lanes_of<std::uint64_t>; ++i) all &= others[i] == 0;
-    for (; k < count; ++k) {
-        std::uint64_t value;
-        std::memcpy(&value, values + 8 * k, sizeof value);
-        all &= value < limit;
-    }
-    return all;
+    return are_few_objects(values + 8 * k, count - k, object_count) && all;
 }
 
 // Whether no value is nan.
@@ -76,19 +82,15 @@ inline bool records_are_valid(const Columns& columns, const std::byte* records,
     return true;
 }
 
-// The same of one record. Mostly it has few objects, for which a loop over registers would take
-// longer to begin than to run.
+// The same of one record, which mostly has few objects.
 RDDL_INLINE bool record_is_valid(const Columns& columns, const std::byte* record) {
     bool all = true;
     for (const Column& column : columns.list) {
         if (column.limit == 0) continue;
-        if (column.count >= simd::lanes_of<std::uint64_t>)
-            return records_are_valid(columns, record, 1);
-        for (std::int64_t k = 0; k < column.count; ++k) {
-            std::uint64_t value;
-            std::memcpy(&value, record + column.row + 8 * k, sizeof value);
-            all &= value < static_cast<std::uint64_t>(column.limit);
-        }
+        const std::byte* const values = record + column.row;
+        all &= column.count < simd::lanes_of<std::uint64_t>
+                   ? detail::are_few_objects(values, column.count, column.limit)
+                   : detail::are_objects(values, column.count, column.limit);
     }
     return all;
 }

@@ -70,7 +70,6 @@ template <int count, int n>
 RDDL_INLINE void store_bits(const Lanes<std::int64_t, n>& bits, Mask<n>* bools) {
     store_lanes<count>(bits, bools);
 }
-
 template <int count, int n>
 RDDL_INLINE void store_bits(const Lanes<std::int8_t, n>& bits, Mask<n>* bools) {
     for (int i = 0; i < count; ++i)
