@@ -65,7 +65,7 @@ def compared_rows(draft: Draft, spring: str, near, lives, kind: str):
     return row() if draft.chance(0.6) else boolean(draft.pick(["(%s ^ %s)", "(%s | %s)", "(%s ~= %s)"]), row(), row())
 
 
-# What nothing but an action reads that chooses few objects, or none.
+# Tables that a CPF reads only where an action is true, which chooses few objects or none.
 
 
 def wards(draft: Draft) -> None:
